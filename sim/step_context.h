@@ -12,7 +12,6 @@ namespace sim {
 struct StepPlan {
     bool isWet = false;           ///< there is liquid
     bool reflects = false;        ///< whether this is the first of two steps, whose velocities are reflected about the projected ones
-    bool overlapsFabric = false;  ///< liquid is within reach of fabric
     bool relaxes = false;         ///< particles are pushed apart
     bool correctsVolume = false;  ///< the liquid's volume is corrected
     bool fabricIsWet = false;     ///< fabric holds liquid
@@ -21,12 +20,18 @@ struct StepPlan {
     std::optional<SurfaceSteps> surfaceSteps;  ///< where surface tension acts
     std::optional<PressureSystem> pressure;
     std::optional<HeldBodies> heldBodies;
+    // The fabric in the liquid.
+    SortedVertices* vertices = nullptr;               ///< vertices in cells of the liquid; null where there are none
+    std::optional<LiquidAround::Found> aroundFabric;  ///< what these see of the liquid, where anything goes by that
+    std::optional<Capture::Uptake> uptake;            ///< what the fabric has taken up
     // How far the mixture of liquid and fabric has come, where both are on some faces (Mixture).
     std::optional<Mixture::SharedFaces> sharedFaces;
     std::optional<Mixture::EliminatedDrag> eliminatedDrag;
     std::optional<Mixture::AppliedPressure> appliedPressure;
     std::optional<Mixture::SeparatedPhases> separatedPhases;
 
+    /// Is liquid within reach of fabric?
+    bool overlapsFabric() const { return vertices != nullptr; }
     /// Are liquid and fabric on some faces both?
     bool isMixed() const { return sharedFaces.has_value(); }
 };
@@ -58,10 +63,10 @@ struct StepContext {
     double fallTime() const
     {
         const bool isFirst = state.lastDt == 0.0;
-        return settings().time.reflects() && (isFirst || !plan.overlapsFabric) ? 0.5 * (state.lastDt + dt) : dt;
+        return settings().time.reflects() && (isFirst || !plan.overlapsFabric()) ? 0.5 * (state.lastDt + dt) : dt;
     }
     /// Gravity on the fabric over dt: what near liquid does to it what gravity does to the liquid over fallTime [cm/s^2].
-    Vec3 gravityOnFabric() const { return plan.overlapsFabric ? Vec3(settings().gravity * (fallTime() / dt)) : settings().gravity; }
+    Vec3 gravityOnFabric() const { return plan.overlapsFabric() ? Vec3(settings().gravity * (fallTime() / dt)) : settings().gravity; }
 };
 
 }  // namespace sim

@@ -10,18 +10,17 @@ namespace sim {
 
 namespace {
 
-/// Distances (LiquidAround) up to which fabric takes up liquid at its rate, and from which on none [cells]. Of those tried from 0.63 to 1 the
+/// Distances (LiquidAround::Found) up to which fabric takes up liquid at its rate, and from which on none [cells]. Of those tried from 0.63 to 1 the
 /// pair by which a drop loses the same to cloth at cells of 0.35 to 0.125 (MeshIndependence.UptakeOfCloth).
 constexpr double kFullUptake = 0.73, kNoUptake = 0.9;
 constexpr double kLeastShare = 1.0e-3;  ///< of the nominal mass, below which a particle gives all it has (coupling/README.md, Uptake) [-]
 
 }  // namespace
 
-Capture::Capture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, double nominalMass)
+Capture::Capture(const Fabric& fabric, const Settings& settings, double nominalMass)
     : fabric_(fabric),
       capacity_(poreCapacity(fabric, settings.liquid.density)),
       law_(settings.coupling.capture.law),
-      around_(around),
       leastMass_(kLeastShare * nominalMass)
 {
     const bool isWetting = std::cos(settings.liquid.contactAngle) > 0.0 && settings.coupling.capture.rate > 0.0;
@@ -42,11 +41,11 @@ double Capture::rateOf(const FabricMaterial& material, const Settings& settings)
 }
 
 /// What a vertex would take of the liquid around it [g].
-double Capture::demand(std::size_t v, double dt) const
+double Capture::demand(std::size_t v, double dt, const Around& around) const
 {
     const double share = std::min(1.0, ratePerVertex_[v] * dt);
-    if (law_ == CaptureLaw::Published) return share * around_.massAt(v);
-    return around_.massAt(v) > 0.0 ? share * capacity_[v] * wettedPart(around_.distanceAt(v), kFullUptake, kNoUptake) : 0.0;
+    if (law_ == CaptureLaw::Published) return share * around.massAt(v);
+    return around.massAt(v) > 0.0 ? share * capacity_[v] * wettedPart(around.distanceAt(v), kFullUptake, kNoUptake) : 0.0;
 }
 
 /// body(vertex, stencil) for the vertices of a block that have room.
@@ -78,31 +77,33 @@ bool Capture::findUnsaturatedVertices(const SortedVertices& vertices, const Fabr
 }
 
 /// What each vertex wants, and of which cells: in proportion to what it sees of them.
-void Capture::computeDemand(double dt, const SortedVertices& vertices)
+void Capture::computeDemand(double dt, const Around& around)
 {
+    const SortedVertices& vertices = around.vertices();
     parallelFor(wanted_.size(), 4096, [&](std::size_t v) {
-        if (wanted_[v] > 0.0) wanted_[v] = std::min(wanted_[v], demand(v, dt));
+        if (wanted_[v] > 0.0) wanted_[v] = std::min(wanted_[v], demand(v, dt, around));
     });
     asked_.resize(vertices.grid.count());
     parallelFor(vertices.grid.count(), 8, [&](std::size_t b) { std::fill_n(asked_.block(static_cast<int>(b)), kBlockCells, 0.0); });
     forEachColored(vertices.order, [&](int block) {
         forEachUnsaturated(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
-                asked_.block(b)[c] += wanted_[v] / around_.massAt(v) * weight * around_.cell(b, c)[LiquidAround::kMass];
+                asked_.block(b)[c] += wanted_[v] / around.massAt(v) * weight * around.cell(b, c)[LiquidAround::kMass];
             });
         });
     });
 }
 
 /// Which share of its liquid is asked of each cell. It gives no more than it has: where the share is more than 1, each vertex gets its part of all.
-void Capture::findShares(const SortedVertices& vertices)
+void Capture::findShares(const Around& around)
 {
+    const SortedVertices& vertices = around.vertices();
     isAsked_.assign(vertices.grid.count() + 1, 0);
     share_.resize(vertices.grid.count());
     parallelFor(vertices.grid.count(), 8, [&](std::size_t n) {
         const int b = static_cast<int>(n);
         for (int c = 0; c < kBlockCells; ++c) {
-            const double mass = around_.cell(b, c)[LiquidAround::kMass];
+            const double mass = around.cell(b, c)[LiquidAround::kMass];
             share_.block(b)[c] = mass > 0.0 ? asked_.block(b)[c] / mass : 0.0;
             if (share_.block(b)[c] > 0.0) isAsked_[n] = 1;
         }
@@ -118,17 +119,18 @@ void Capture::deposit(std::size_t v, double mass, const Vec3& momentum, FabricSt
     else state.v[v] = (before * state.v[v] + momentum) / (before + mass);
 }
 
-double Capture::absorb(const SortedVertices& vertices, FabricState& state)
+double Capture::absorb(const Around& around, FabricState& state)
 {
+    const SortedVertices& vertices = around.vertices();
     std::ranges::fill(got_, 0.0);
     parallelFor(vertices.order.occupied.size(), [&](std::size_t n) {
         const int block = vertices.order.occupied[n];
         forEachUnsaturated(vertices, block, [&](std::size_t v, const CellStencil& stencil) {
             Pack got{};
             stencil.forEach(vertices.grid.neighbours(block), [&](int b, int c, double weight) {
-                const Pack& cell = around_.cell(b, c);
+                const Pack& cell = around.cell(b, c);
                 // Of what is asked of the cell it gives all, or as much as it has.
-                if (cell[LiquidAround::kMass] > 0.0) got += wanted_[v] / around_.massAt(v) * weight / std::max(1.0, share_.block(b)[c]) * cell;
+                if (cell[LiquidAround::kMass] > 0.0) got += wanted_[v] / around.massAt(v) * weight / std::max(1.0, share_.block(b)[c]) * cell;
             });
             got_[v] = got[LiquidAround::kMass];
             constexpr int kFirst = LiquidAround::kMomentum;
@@ -139,14 +141,15 @@ double Capture::absorb(const SortedVertices& vertices, FabricState& state)
 }
 
 /// Particles give what the cells around them gave.
-void Capture::removeFromParticles(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid)
+void Capture::removeFromParticles(const Around& around, LiquidParticles& liquid)
 {
-    parallelFor(around_.near().size(), [&](std::size_t n) {
-        const LiquidAround::Part& part = around_.near()[n];
-        const std::array<int, 27>& blocks = around_.blocksAround(part.block);
+    const BlockGrid& grid = around.grid();
+    parallelFor(around.near().size(), [&](std::size_t n) {
+        const LiquidAround::Part& part = around.near()[n];
+        const std::array<int, 27>& blocks = around.blocksAround(part.block);
         if (std::ranges::none_of(blocks, [&](int b) { return isAsked_[b] != 0; })) return;
         const Vec3 corner = grid.lowerCorner(part.block);
-        LiquidAround::forEachParticle(order, part, [&](int p) {
+        LiquidAround::forEachParticle(around.order(), part, [&](int p) {
             double share = 0.0;
             const CellStencil stencil(liquid.position(p), corner, grid.dx);
             stencil.forEach(blocks, [&](int b, int c, double weight) { share += weight * std::min(1.0, share_.block(b)[c]); });
@@ -173,18 +176,18 @@ std::size_t Capture::nearestWithRoom(const Vec3& x, double dx, const std::array<
 }
 
 /// Particles that are hardly there any more go to the nearest vertex with room; few ever are.
-double Capture::absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
-                                FabricState& state)
+double Capture::absorbResiduals(const Around& around, LiquidParticles& liquid, FabricState& state)
 {
     double sum = 0.0;
-    for (const LiquidAround::Part& part : around_.near())
-        LiquidAround::forEachParticle(order, part, [&](int s) {
+    for (const LiquidAround::Part& part : around.near())
+        LiquidAround::forEachParticle(around.order(), part, [&](int s) {
             if (liquid.mass[s] >= leastMass_) return;
             if (liquid.mass[s] > 0.0) {
-                const std::size_t taker = nearestWithRoom(liquid.position(s), grid.dx, around_.blocksAround(part.block), vertices, state);
+                const std::size_t taker =
+                    nearestWithRoom(liquid.position(s), around.grid().dx, around.blocksAround(part.block), around.vertices(), state);
                 if (taker == fabric_.vertexCount()) return;
                 const double mass = liquid.mass[s];
-                deposit(taker, mass, mass * liquid.velocity(order.source[s]), state);
+                deposit(taker, mass, mass * liquid.velocity(around.order().source[s]), state);
                 sum += mass;
                 liquid.mass[s] = 0.0;
             }
@@ -193,26 +196,27 @@ double Capture::absorbResiduals(const BlockGrid& grid, const ParticleOrder& orde
     return sum;
 }
 
-double Capture::capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
-                        FabricState& state)
+Capture::Uptake Capture::capture(double dt, const LiquidAround::Found& around, LiquidParticles& liquid, FabricState& state)
 {
     emptied_.clear();
     std::ranges::fill(pinImpulse_, Vec3::Zero());
-    if (!findUnsaturatedVertices(vertices, state)) return 0.0;
-    computeDemand(dt, vertices);
-    findShares(vertices);
-    const double mass = absorb(vertices, state);
-    removeFromParticles(grid, order, liquid);
-    return mass + absorbResiduals(grid, order, vertices, liquid, state);
+    double mass = 0.0;
+    if (findUnsaturatedVertices(around.vertices(), state)) {
+        computeDemand(dt, around);
+        findShares(around);
+        mass = absorb(around, state);
+        removeFromParticles(around, liquid);
+        mass += absorbResiduals(around, liquid, state);
+    }
+    return {mass, pinImpulse_, emptied_};
 }
 
-void Capture::removeEmptyParticles(LiquidParticles& liquid)
+void Capture::removeEmptyParticles(const Uptake& uptake, LiquidParticles& liquid)
 {
-    for (std::size_t n = emptied_.size(); n-- > 0;) {
-        if (emptied_[n] != liquid.count - 1) liquid.copy(liquid.count - 1, emptied_[n]);
+    for (std::size_t n = uptake.emptied.size(); n-- > 0;) {
+        if (uptake.emptied[n] != liquid.count - 1) liquid.copy(liquid.count - 1, uptake.emptied[n]);
         liquid.resize(liquid.count - 1);
     }
-    emptied_.clear();
 }
 
 }  // namespace sim

@@ -4,7 +4,6 @@
 #include "sim/coupling/porous_law.h"
 #include "sim/settings.h"
 
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -18,32 +17,33 @@ namespace sim {
 class Capture {
  public:
     /// @param nominalMass  of a particle [g]
-    Capture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, double nominalMass);
+    Capture(const Fabric& fabric, const Settings& settings, double nominalMass);
 
-    /// Absorbs liquid over dt [s] from the cells that `around` has collected. Velocities of pinned vertices stay.
-    /// @return mass taken up [g]
-    double capture(double dt, const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
-                   FabricState& state);
-    /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
-    Vec3 pinImpulse() const { return std::accumulate(pinImpulse_.begin(), pinImpulse_.end(), Vec3::Zero().eval()); }
-    /// What each pinned vertex got of the liquid's momentum in the last call [g cm/s].
-    std::span<const Vec3> pinImpulseByVertex() const { return pinImpulse_; }
+    /// What fabric has taken up in a call of capture, until the next call.
+    struct Uptake {
+        double mass = 0.0;                     ///< [g]
+        std::span<const Vec3> pinImpulse;      ///< momentum of liquid that pins, whose velocities stay, held back of each vertex [g cm/s]
+        std::span<const std::size_t> emptied;  ///< particles that have given all they had, ascending
+    };
+    /// Absorbs liquid over dt [s] from the cells around. Velocities of pinned vertices stay.
+    /// @param liquid  what was found around
+    Uptake capture(double dt, const LiquidAround::Found& around, LiquidParticles& liquid, FabricState& state);
     /// Removes the particles that have given all they had; their numbers change.
-    void removeEmptyParticles(LiquidParticles& liquid);
+    static void removeEmptyParticles(const Uptake& uptake, LiquidParticles& liquid);
 
  private:
+    using Around = LiquidAround::Found;
     static double rateOf(const FabricMaterial& material, const Settings& settings);
-    double demand(std::size_t v, double dt) const;
+    double demand(std::size_t v, double dt, const Around& around) const;
     double roomOf(std::size_t v, const FabricState& state) const { return capacity_[v] - state.absorbed[v]; }
     bool findUnsaturatedVertices(const SortedVertices& vertices, const FabricState& state);
-    void computeDemand(double dt, const SortedVertices& vertices);
-    void findShares(const SortedVertices& vertices);
-    double absorb(const SortedVertices& vertices, FabricState& state);
-    void removeFromParticles(const BlockGrid& grid, const ParticleOrder& order, LiquidParticles& liquid);
+    void computeDemand(double dt, const Around& around);
+    void findShares(const Around& around);
+    double absorb(const Around& around, FabricState& state);
+    void removeFromParticles(const Around& around, LiquidParticles& liquid);
     std::size_t nearestWithRoom(const Vec3& x, double dx, const std::array<int, 27>& blocks, const SortedVertices& vertices,
                                 const FabricState& state) const;
-    double absorbResiduals(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices, LiquidParticles& liquid,
-                           FabricState& state);
+    double absorbResiduals(const Around& around, LiquidParticles& liquid, FabricState& state);
     void deposit(std::size_t v, double mass, const Vec3& momentum, FabricState& state);
     template <class Body>
     void forEachUnsaturated(const SortedVertices& vertices, int block, Body&& body) const;
@@ -52,7 +52,6 @@ class Capture {
     std::vector<double> capacity_;       ///< mass that the pores of each vertex hold [g]
     std::vector<double> ratePerVertex_;  ///< law fabric: part of its pores that it fills per time; published: of the liquid around [1/s]
     CaptureLaw law_;
-    const LiquidAround& around_;
     double leastMass_;  ///< mass below which a particle gives all [g]
 
     // Of the step.

@@ -11,7 +11,7 @@ namespace sim {
 /// Everything that liquid and fabric do to each other (coupling/README.md, What is kept), in the order in which a step does it.
 struct Coupling {
     const Fabric& fabric;
-    SortedVertices vertices;
+    VertexSorter sorter;
     LiquidAround around;
     PorousElements elements;
     Capture capture;
@@ -26,8 +26,8 @@ struct Coupling {
         : fabric(theFabric),
           around(fabric.vertexCount()),
           elements(fabric),
-          capture(fabric, around, settings, nominalMass),
-          mixture(fabric, around, settings, vertices),
+          capture(fabric, settings, nominalMass),
+          mixture(fabric, settings),
           drip(fabric, elements, settings, nominalMass),
           wicking(fabric, elements, settings)
     {

@@ -6,6 +6,8 @@
 #include "sim/state.h"
 
 #include <cmath>
+#include <numeric>
+#include <span>
 
 namespace sim {
 
@@ -20,14 +22,15 @@ class ExchangeWatch {
         before_ = measure();
 #endif
     }
-    /// @param pinImpulse  [g cm/s]
-    void expectKept([[maybe_unused]] const Vec3& pinImpulse) const
+    /// @param pinImpulse  momentum that pins held back of each vertex [g cm/s]; empty if nothing
+    void expectKept([[maybe_unused]] std::span<const Vec3> pinImpulse) const
     {
 #ifdef DRENCH_CHECKS
         constexpr double kRoundOff = 1.0e-12;
         const Sums after = measure();
+        const Vec3 heldBack = std::accumulate(pinImpulse.begin(), pinImpulse.end(), Vec3::Zero().eval());
         SIM_CHECK(std::abs(before_.water - after.water) <= kRoundOff * before_.water);
-        SIM_CHECK((before_.momentum - after.momentum - pinImpulse).norm() <= kRoundOff * before_.momentumSize);
+        SIM_CHECK((before_.momentum - after.momentum - heldBack).norm() <= kRoundOff * before_.momentumSize);
 #endif
     }
 

@@ -13,12 +13,17 @@ namespace sim {
 namespace {
 
 constexpr double kRoundOff = 1.0e-12;  ///< relative [-]
-/// Distances (LiquidAround) of a flat surface that the vertex is on, and that is a tenth of a cell away: up to the first liquid drags fabric
+/// Distances (LiquidAround::Found) of a flat surface that the vertex is on, and that is a tenth of a cell away: up to the first liquid drags fabric
 /// fully, from the second on not at all [cells]. Below those of uptake, so that fabric that is carried ahead of liquid drinks from it.
 constexpr double kFullDrag = 0.56, kNoDrag = 0.63;
 
 /// Normal to a triangle, as long as twice its area [cm^2].
 Vec3 doubleArea(const std::vector<Vec3>& x, const Vec3i& f) { return (x[f[1]] - x[f[0]]).cross(x[f[2]] - x[f[0]]); }
+
+bool isUniformIn(const std::vector<double>& all)
+{
+    return std::ranges::all_of(all, [&](double one) { return one == all[0]; });
+}
 
 /// Numbers of the elements at each vertex.
 template <class Corners>
@@ -36,8 +41,7 @@ void sortByVertex(std::size_t vertices, const std::vector<Corners>& elements, st
 
 }  // namespace
 
-FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, const LiquidAround* around, SortedVertices& vertices)
-    : fabric_(fabric), liquidDensity_(liquidDensity), around_(around), vertices_(vertices)
+FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity) : fabric_(fabric), liquidDensity_(liquidDensity)
 {
     const std::size_t n = fabric.vertexCount();
     sortByVertex(n, fabric.edges.vertices, edgesBegin_, edgesAt_);
@@ -59,27 +63,29 @@ FabricOnFaces::FabricOnFaces(const Fabric& fabric, double liquidDensity, const L
         for (int i = facesBegin_[v]; i < facesBegin_[v + 1]; ++i) restArea_[v] += doubleArea(fabric.rest, fabric.faces.vertices[facesAt_[i]]).norm();
         shapeOf_.push_back(facesBegin_[v] == facesBegin_[v + 1] ? 1.0 : std::min(1.0, yarn / fabric.volume[v]));
     }
-    const auto isUniformIn = [](const std::vector<double>& all) { return std::ranges::all_of(all, [&](double one) { return one == all[0]; }); };
     isOneShape_ = isUniformIn(shapeOf_);
     hasYarns_ = fabric.edges.size() > 0;
-    if (around && hasYarns_) {
-        diameterOf_ = yarnDiameters(fabric);
-        constrictionOf_ = constrictions(fabric, diameterOf_);
-        isOneDiameter_ = isUniformIn(diameterOf_);
-        isOneNarrowing_ = isUniformIn(constrictionOf_);
-    }
     const double first = fibresOf_[0] / fabric.mass[0];
     bool isUniform = true;
     for (std::size_t v = 0; v < n; ++v) isUniform &= std::abs(fibresOf_[v] / fabric.mass[v] - first) < kRoundOff * first;
     if (isUniform) fibresPerMass_ = first;
 }
 
+/// Yarns as liquid that flows around them meets them.
+void FabricOnFaces::findYarns()
+{
+    diameterOf_ = yarnDiameters(fabric_);
+    constrictionOf_ = constrictions(fabric_, diameterOf_);
+    isOneDiameter_ = isUniformIn(diameterOf_);
+    isOneNarrowing_ = isUniformIn(constrictionOf_);
+}
+
 /// Squares of the components of tangents and normals, weighted by lengths and areas; and by how much these have grown.
 void FabricOnFaces::findDirections(const FabricState& state)
 {
     const auto normalized = [](const Vec3& sum) { return sum.sum() > 0.0 ? Vec3(sum / sum.sum()) : Vec3::Constant(1.0 / 3.0).eval(); };
-    parallelFor(vertices_.count(), kGrain, [&](std::size_t s) {
-        const std::size_t v = vertices_.particles.id[s];
+    parallelFor(vertices_->count(), kGrain, [&](std::size_t s) {
+        const std::size_t v = vertices_->particles.id[s];
         Vec3 tangents = Vec3::Zero(), normals = Vec3::Zero();
         double length = 0.0, area = 0.0;
         for (int i = edgesBegin_[v]; i < edgesBegin_[v + 1]; ++i) {
@@ -127,11 +133,12 @@ void FabricOnFaces::takeVelocity(const FabricFaces& faces)
     });
 }
 
-void FabricOnFaces::spread(const FabricState& state)
+void FabricOnFaces::spread(SortedVertices& vertices, const FabricState& state, std::span<const double> distance)
 {
-    const std::size_t n = vertices_.count();
-    Particles& particles = vertices_.particles;
-    points_.find(particles, vertices_.order, vertices_.grid, 0, static_cast<std::uint32_t>(fabric_.vertexCount()));
+    vertices_ = &vertices;
+    const std::size_t n = vertices.count();
+    Particles& particles = vertices.particles;
+    points_.find(particles, vertices.order, vertices.grid, 0, static_cast<std::uint32_t>(fabric_.vertexCount()));
     onPoints_.resize(n);
     parallelFor(n, kGrain, [&](std::size_t s) {
         const std::size_t v = particles.id[s];
@@ -140,9 +147,9 @@ void FabricOnFaces::spread(const FabricState& state)
     });
     for (int a = 0; a < kAxes; ++a) {
         double* mode = particles.mode(a, 0);
-        parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices_.order.source[s]] = state.v[particles.id[s]][a]; });
+        parallelFor(n, kGrain, [&](std::size_t s) { mode[vertices.order.source[s]] = state.v[particles.id[s]][a]; });
     }
-    particlesToFaces({particles, vertices_.order, grid()}, scatter_, sums_);
+    particlesToFaces({particles, vertices.order, vertices.grid}, scatter_, sums_);
     for (BlockArray<double, 3>* u : {&mass, &velocity, &fibres, &envelope, &touched, &diameter, &constriction, &solid, &shape, &squares})
         u->resize(grid().count());
     parallelFor(grid().count(), 8, [&](std::size_t i) {
@@ -156,12 +163,13 @@ void FabricOnFaces::spread(const FabricState& state)
     scatter([&](int v) { return Vec3(massOf_[v] * squaresOf_[v]); }, squares);
     divideByMass(squares);
     findVolumes(state);
-    if (around_) {
+    if (!distance.empty()) {
         scatter([&](int v) { return Vec3::Constant(envelopeOf_[v]); }, envelope);
-        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * wettedPart(around_->distanceAt(v), kFullDrag, kNoDrag)); }, touched);
+        scatter([&](int v) { return Vec3::Constant(envelopeOf_[v] * wettedPart(distance[v], kFullDrag, kNoDrag)); }, touched);
     }
     averageOverMass(shapeOf_, isOneShape_, shape);
-    if (around_ && hasYarns_) {
+    if (!distance.empty() && hasYarns_) {
+        if (diameterOf_.empty()) findYarns();
         averageOverMass(diameterOf_, isOneDiameter_, diameter);
         averageOverMass(constrictionOf_, isOneNarrowing_, constriction);
     }
@@ -189,8 +197,8 @@ void FabricOnFaces::averageOverMass(const std::vector<double>& ofVertex, bool is
 /// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.
 void FabricOnFaces::findVolumes(const FabricState& state)
 {
-    const std::size_t n = vertices_.count();
-    const bool isWet = parallelMax(n, [&](std::size_t s) { return state.absorbed[vertices_.particles.id[s]]; }) > 0.0;
+    const std::size_t n = vertices_->count();
+    const bool isWet = parallelMax(n, [&](std::size_t s) { return state.absorbed[vertices_->particles.id[s]]; }) > 0.0;
     if (isWet) scatter([&](int v) { return Vec3::Constant(state.absorbed[v] / liquidDensity_); }, solid);
     if (!fibresPerMass_) scatter([&](int v) { return Vec3::Constant(fibresOf_[v]); }, fibres);
     parallelFor(grid().count(), 8, [&](std::size_t i) {

@@ -6,6 +6,7 @@
 #include "sim/transfer/scatter.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sim {
@@ -14,17 +15,17 @@ namespace sim {
 /// faces). Plain P2G, without modes.
 class FabricOnFaces {
  public:
-    /// @param around  the liquid, found before each call of spread, where envelopes are to be known; else null
-    FabricOnFaces(const Fabric& fabric, double liquidDensity, const LiquidAround* around, SortedVertices& vertices);
+    FabricOnFaces(const Fabric& fabric, double liquidDensity);
 
-    /// P2G of all fields, of vertices that have been sorted.
-    void spread(const FabricState& state);
+    /// P2G of all fields of the vertices, which hold until the next call.
+    /// @param distance  how far liquid is from each vertex (LiquidAround::Found) [cells], where envelopes are to be known; else empty
+    void spread(SortedVertices& vertices, const FabricState& state, std::span<const double> distance);
     /// P2G of the velocity alone, of the vertices as they are now.
     void spreadVelocity(const FabricState& state);
     /// Takes the velocity as a solver has it on faces.
     void takeVelocity(const FabricFaces& faces);
 
-    const BlockGrid& grid() const { return vertices_.grid; }
+    const BlockGrid& grid() const { return vertices_->grid; }      ///< of the vertices that were spread
     double massOf(int vertex) const { return massOf_[vertex]; }    ///< with what it has absorbed [g]
     double solidOf(int vertex) const { return solidOf_[vertex]; }  ///< volume of its fibres and of that [cm^3]
 
@@ -49,6 +50,7 @@ class FabricOnFaces {
     void gather(const BlockArray<double, 3>& u, To&& to);
 
  private:
+    void findYarns();
     void findVolumes(const FabricState& state);
     void averageOverMass(const std::vector<double>& ofVertex, bool isUniform, BlockArray<double, 3>& mean);
     void findHeld(const FabricState& state);
@@ -56,16 +58,15 @@ class FabricOnFaces {
     void divideByMass(BlockArray<double, 3>& u) const;
 
     const Fabric& fabric_;
-    double liquidDensity_;  ///< [g/cm^3]
-    const LiquidAround* around_;
+    double liquidDensity_;                ///< [g/cm^3]
+    SortedVertices* vertices_ = nullptr;  ///< vertices that were spread last
     bool hasYarns_ = false;
     std::vector<double> diameterOf_, constrictionOf_;  ///< of each vertex [cm, -]
-    SortedVertices& vertices_;
-    std::vector<double> fibresOf_, shapeOf_;     ///< of each vertex [cm^3, -]
-    std::vector<double> restLength_, restArea_;  ///< of the edges and faces at each vertex, summed [cm, cm^2]
-    std::vector<double> envelopeOf_;             ///< of each vertex, of the step [cm^3]
-    std::optional<double> fibresPerMass_;        ///< of the dry fabric, where all vertices have the same [cm^3/g]
-    bool isOneShape_ = false;                    ///< all yarns, or all cloth
+    std::vector<double> fibresOf_, shapeOf_;           ///< of each vertex [cm^3, -]
+    std::vector<double> restLength_, restArea_;        ///< of the edges and faces at each vertex, summed [cm, cm^2]
+    std::vector<double> envelopeOf_;                   ///< of each vertex, of the step [cm^3]
+    std::optional<double> fibresPerMass_;              ///< of the dry fabric, where all vertices have the same [cm^3/g]
+    bool isOneShape_ = false;                          ///< all yarns, or all cloth
     bool isOneDiameter_ = false, isOneNarrowing_ = false;
     std::vector<double> massOf_, solidOf_;   ///< of each vertex, of the step [g, cm^3]
     std::vector<Vec3> squaresOf_;            ///< of each vertex
@@ -82,7 +83,7 @@ class FabricOnFaces {
 template <class Of>
 void FabricOnFaces::scatter(Of&& of, BlockArray<double, 3>& u)
 {
-    sumOverBlocks(vertices_.order, vertices_.grid, rows_, u, [&](std::size_t n, FaceTile& tile) {
+    sumOverBlocks(vertices_->order, vertices_->grid, rows_, u, [&](std::size_t n, FaceTile& tile) {
         for (int s = points_.begin(n); s < points_.end(n); ++s) {
             const Vec3 value = of(points_.id[s]);
             for (int a = 0; a < kAxes; ++a) onPoints_.of[a][s] = value[a];
@@ -94,7 +95,7 @@ void FabricOnFaces::scatter(Of&& of, BlockArray<double, 3>& u)
 template <class To>
 void FabricOnFaces::gather(const BlockArray<double, 3>& u, To&& to)
 {
-    forEachBlock(vertices_.order, vertices_.grid, u, [&](std::size_t n, const FaceTile& tile) {
+    forEachBlock(vertices_->order, vertices_->grid, u, [&](std::size_t n, const FaceTile& tile) {
         gatherValues(tile, points_, n, onPoints_);
         for (int s = points_.begin(n); s < points_.end(n); ++s) to(points_.id[s], Vec3(onPoints_.of[0][s], onPoints_.of[1][s], onPoints_.of[2][s]));
     });

@@ -102,8 +102,9 @@ void LiquidAround::addTile(const Pack* tile, const std::array<int, 27>& blocks)
 }
 
 /// Liquid in the cells that are reached.
-void LiquidAround::collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid)
+void LiquidAround::collect(const SortedParticles& sorted)
 {
+    const auto& [liquid, order, grid] = sorted;
     constexpr int kTile = CellStencil::kTileEdge * CellStencil::kTileEdge * CellStencil::kTileEdge;
     tiles_.resize(near_.size() * kTile * kLanes);
     const auto tileOf = [&](std::size_t part) { return reinterpret_cast<Pack*>(tiles_.data()) + part * kTile; };
@@ -172,14 +173,13 @@ void LiquidAround::sampleAtVertices(const BlockGrid& grid, const ObstacleField& 
     });
 }
 
-bool LiquidAround::find(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid, const ObstacleField& obstacles,
-                        const SortedVertices& vertices)
+std::optional<LiquidAround::Found> LiquidAround::find(const SortedParticles& liquid, const ObstacleField& obstacles, const SortedVertices& vertices)
 {
     findReached(vertices);
-    if (!findNear(grid, order, vertices)) return false;
-    collect(grid, order, liquid);
-    sampleAtVertices(grid, obstacles, vertices);
-    return true;
+    if (!findNear(liquid.grid, liquid.order, vertices)) return std::nullopt;
+    collect(liquid);
+    sampleAtVertices(liquid.grid, obstacles, vertices);
+    return Found(*this, liquid, vertices);
 }
 
 }  // namespace sim

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace sim {
@@ -20,18 +22,12 @@ class LiquidAround {
     enum Lane { kMass, kMomentum, kMoment = kMomentum + kAxes };
 
     explicit LiquidAround(std::size_t vertices) : mass_(vertices), distance_(vertices) {}
+    LiquidAround(const LiquidAround&) = delete;  // what it has found is referred to
 
-    /// Collects sorted liquid in the cells that sorted vertices reach, and samples it at these. False where no particle is in reach.
-    bool find(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid, const ObstacleField& obstacles,
-              const SortedVertices& vertices);
-
-    /// Mean over the cells around vertex v of the mass in them [g].
-    double massAt(std::size_t v) const { return mass_[v]; }
-    /// How far the mean place of the liquid that vertex v sees is from that of all room: 0 amid liquid, 0.56 on its flat surface, 0.63 and
-    /// 0.73 at 0.1 and 0.25 from that, r beside a drop at r, as of a normal distribution of variance 1/2 [cells].
-    double distanceAt(std::size_t v) const { return distance_[v]; }
-
-    const Pack& cell(int block, int c) const { return reinterpret_cast<const Pack*>(cells_.data())[block * kBlockCells + c]; }
+    /// What find has found, which holds until the next find.
+    class Found;
+    /// Collects sorted liquid in the cells that sorted vertices reach, and samples it at these. Nothing where no particle is in reach.
+    std::optional<Found> find(const SortedParticles& liquid, const ObstacleField& obstacles, const SortedVertices& vertices);
 
     /// Cells of a block, a bit each, by cellRank.
     using CellMask = std::array<std::uint64_t, kBlockCells / 64>;
@@ -40,20 +36,18 @@ class LiquidAround {
         int block, begin, end;
         CellMask cells;
     };
-    const std::vector<Part>& near() const { return near_; }
     /// body(particle), ascending.
     template <class Body>
     static void forEachParticle(const ParticleOrder& order, const Part& part, Body&& body);
-    /// The vertices' blocks around a block of the liquid that has particles near; empty ones are the vertices' number of blocks.
-    const std::array<int, 27>& blocksAround(int block) const { return nearBlocks_[block]; }
 
  private:
+    const Pack& cell(int block, int c) const { return reinterpret_cast<const Pack*>(cells_.data())[block * kBlockCells + c]; }
     Pack& cell(int block, int c) { return reinterpret_cast<Pack*>(cells_.data())[block * kBlockCells + c]; }
     void findReached(const SortedVertices& vertices);
     CellMask cellsNear(const std::array<int, 27>& blocks) const;
     bool findNear(const BlockGrid& grid, const ParticleOrder& order, const SortedVertices& vertices);
     void addTile(const Pack* tile, const std::array<int, 27>& blocks);
-    void collect(const BlockGrid& grid, const ParticleOrder& order, const LiquidParticles& liquid);
+    void collect(const SortedParticles& sorted);
     void sampleAtVertices(const BlockGrid& grid, const ObstacleField& obstacles, const SortedVertices& vertices);
     Vec3 centroidOfRoom(const ObstacleField& obstacles, const SortedVertices& vertices, int block, const CellStencil& stencil, const Vec3& x) const;
 
@@ -62,11 +56,42 @@ class LiquidAround {
     BlockArray<std::uint8_t> reached_;  ///< whether a vertex reaches each cell
     std::vector<std::uint8_t> blockReached_;
     std::vector<int> solidBlock_;                  ///< block of the liquid's grid where there are solids near, or BlockGrid::kNone
-    std::vector<double> mass_, distance_;          ///< massAt and distanceAt of each vertex, known of sorted ones [g, cells]
+    std::vector<double> mass_, distance_;          ///< Found::massAt and distanceAt of each vertex, known of sorted ones [g, cells]
     std::vector<std::array<int, 27>> nearBlocks_;  ///< blocks of vertices around each block of the liquid
     std::vector<Part> near_;                       ///< in the order of the blocks
     std::vector<int> nearBegin_;                   ///< first part of each block of the liquid; it has none if the next block's is the same
     AlignedArray<double> tiles_;                   ///< what each part's particles bring to the cells of a tile
+};
+
+class LiquidAround::Found {
+ public:
+    /// Mean over the cells around vertex v of the mass in them [g].
+    double massAt(std::size_t v) const { return around_->mass_[v]; }
+    /// How far the mean place of the liquid that vertex v sees is from that of all room: 0 amid liquid, 0.56 on its flat surface, 0.63 and
+    /// 0.73 at 0.1 and 0.25 from that, r beside a drop at r, as of a normal distribution of variance 1/2 [cells].
+    double distanceAt(std::size_t v) const { return around_->distance_[v]; }
+    std::span<const double> distances() const { return around_->distance_; }  ///< distanceAt of each vertex, known of sorted ones [cells]
+
+    const Pack& cell(int block, int c) const { return around_->cell(block, c); }
+    const std::vector<Part>& near() const { return around_->near_; }
+    /// The vertices' blocks around a block of the liquid that has particles near; empty ones are the vertices' number of blocks.
+    const std::array<int, 27>& blocksAround(int block) const { return around_->nearBlocks_[block]; }
+
+    const ParticleOrder& order() const { return *order_; }  ///< order of the liquid
+    const BlockGrid& grid() const { return *grid_; }        ///< grid of the liquid
+    const SortedVertices& vertices() const { return *vertices_; }
+
+ private:
+    friend LiquidAround;
+    Found(const LiquidAround& around, const SortedParticles& liquid, const SortedVertices& vertices)
+        : around_(&around), order_(&liquid.order), grid_(&liquid.grid), vertices_(&vertices)
+    {
+    }
+
+    const LiquidAround* around_;
+    const ParticleOrder* order_;
+    const BlockGrid* grid_;
+    const SortedVertices* vertices_;
 };
 
 template <class Body>
@@ -82,7 +107,7 @@ void LiquidAround::forEachParticle(const ParticleOrder& order, const Part& part,
 }
 
 /// 1 of liquid that is at most `touching` away, 0 of what is `apart`, even between.
-/// @param distance  LiquidAround::distanceAt, as the others [cells]
+/// @param distance  LiquidAround::Found::distanceAt, as the others [cells]
 inline double wettedPart(double distance, double touching, double apart) { return std::clamp((apart - distance) / (apart - touching), 0.0, 1.0); }
 
 /// body(block) for all blocks of an order that hold something, those of a colour in parallel: they reach no common cell.

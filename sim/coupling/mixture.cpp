@@ -1,5 +1,6 @@
 #include "sim/coupling/mixture.h"
 
+#include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/coupling/mixture_face.h"
 #include "sim/liquid/pressure.h"
@@ -16,39 +17,41 @@ constexpr double kLeastFree = 1.0e-9;
 
 }  // namespace
 
-Mixture::Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices)
+Mixture::Mixture(const Fabric& fabric, const Settings& settings)
     : law_(settings.porous, settings.liquid, settings.coupling),
       liquid_(settings.liquid),
       liquidDensity_(settings.liquid.density),
       settings_(settings.coupling),
       suction_(fabric, settings),
-      vertices_(vertices),
-      onFaces_(fabric, settings.liquid.density, settings.coupling.dragFraction == DragFraction::Fabric ? &around : nullptr, vertices)
+      onFaces_(fabric, settings.liquid.density)
 {
     loads_.drag.resize(fabric.vertexCount());
     loads_.impulse.resize(fabric.vertexCount());
     if (hasReaction()) reactionOf_.resize(fabric.vertexCount());
 }
 
-bool Mixture::matchBlocks(const BlockGrid& grid)
+/// @param vertices, grid  of the fabric, and of the liquid
+bool Mixture::matchBlocks(const BlockGrid& vertices, const BlockGrid& grid)
 {
     liquidBlock_.clear();
-    for (const Vec3i& coords : onFaces_.grid().coords()) liquidBlock_.push_back(grid.find(coords));
+    for (const Vec3i& coords : vertices.coords()) liquidBlock_.push_back(grid.find(coords));
     return std::ranges::any_of(liquidBlock_, [](int b) { return b != BlockGrid::kNone; });
 }
 
-std::optional<Mixture::SharedFaces> Mixture::findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state,
-                                                             const FabricFaces* faces, LiquidGrid& liquid)
+std::optional<Mixture::SharedFaces> Mixture::findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const MetFabric& fabric,
+                                                             LiquidGrid& liquid)
 {
-    if (!matchBlocks(cut.grid)) return std::nullopt;
+    vertices_ = &fabric.vertices;
+    if (!matchBlocks(vertices_->grid, cut.grid)) return std::nullopt;
     dt_ = dt;
-    onFaces_.spread(state);
-    if (faces) onFaces_.takeVelocity(*faces);
+    SIM_CHECK(fabric.distance.empty() != isDragByFabric(settings_));
+    onFaces_.spread(*vertices_, fabric.state, fabric.distance);
+    if (fabric.faces) onFaces_.takeVelocity(*fabric.faces);
     for (Faces* u : {&liquidMass_, &relative_, &liquidVolume_, &drag_, &predicted_, &pressed_, &mixed_, &mobility_, &suctionImpulse_, &reaction_,
                      &onFabric_, &dragImpulse_, &pressureImpulse_, &faceImpulse_, &scratch_})
         u->resize(onFaces_.grid().count());
     findRelative(gravity, cut.field, liquid);
-    if (settings_.capillary) addSuction(cut, state, liquid);
+    if (settings_.capillary) addSuction(cut, fabric.state, liquid);
     if (hasReaction()) applyReaction();
     mixVelocities(gravity, cut.field, liquid);
     addDisplacedMass(liquid);
@@ -79,7 +82,7 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
 /// Fabric draws liquid to where its pores are empty (coupling/README.md, Suction).
 void Mixture::addSuction(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid)
 {
-    suction_.find(vertices_, state, cut.grid, liquidBlock_, liquid);
+    suction_.find(*vertices_, state, cut.grid, liquidBlock_, liquid);
     Faces& perSlope = scratch_;  // for applyReaction
     parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(perSlope.block(static_cast<int>(b)), Faces::kStride, 0.0); });
     const double cell = std::pow(onFaces_.grid().dx, 3);
@@ -99,7 +102,7 @@ void Mixture::addSuction(const CutGrid& cut, const FabricState& state, const Liq
 /// … and is drawn by it.
 void Mixture::applyReaction()
 {
-    suction_.applyReaction(vertices_, scratch_, reactionOf_);
+    suction_.applyReaction(*vertices_, scratch_, reactionOf_);
     parallelFor(liquidBlock_.size(), [&](std::size_t b) { std::fill_n(reaction_.block(static_cast<int>(b)), Faces::kStride, 0.0); });
     onFaces_.scatter([&](int v) { return reactionOf_[v]; }, reaction_);
 }

@@ -11,8 +11,15 @@
 #include "sim/settings.h"
 
 #include <optional>
+#include <span>
 
 namespace sim {
+
+/// Does drag go by the fabric's own fraction, on what of it the liquid around touches?
+inline bool isDragByFabric(const CouplingSettings& coupling)
+{
+    return coupling.drag != DragLaw::Off && coupling.dragFraction == DragFraction::Fabric;
+}
 
 /// Liquid and fabric on the faces that both reach: drag, and the pressure that keeps the mixture's volume (coupling/README.md, Mixture). The fabric's
 /// own forces are solved for in vertex space; what the liquid adds to them, and they to it, cancels to round-off.
@@ -41,14 +48,18 @@ class Mixture {
         friend Mixture;
         SeparatedPhases() = default;
     };
-    /// @param around  found before each call of findSharedFaces; goes by it where drag is by the fabric's own fraction
-    Mixture(const Fabric& fabric, const LiquidAround& around, const Settings& settings, SortedVertices& vertices);
+    Mixture(const Fabric& fabric, const Settings& settings);
 
-    /// Finds the faces that both phases are on, with their drag over a step of dt [s], of vertices that are sorted and a liquid whose predicted
-    /// velocities are known. The volume of the fabric and of what it holds then counts as filled. Nothing if there are none.
-    /// @param faces  the fabric's velocities, of a solver that has its unknowns on faces; else null
-    std::optional<SharedFaces> findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const FabricState& state, const FabricFaces* faces,
-                                               LiquidGrid& liquid);
+    /// The fabric where it meets the liquid; all of it stays until the phases are separated.
+    struct MetFabric {
+        SortedVertices& vertices;
+        const FabricState& state;
+        std::span<const double> distance;  ///< distance of the liquid from each vertex where drag goes by it (isDragByFabric), else empty [cells]
+        const FabricFaces* faces;          ///< velocities, of a solver that has its unknowns on faces; else null
+    };
+    /// Finds the faces that both phases are on, with their drag over a step of dt [s], of a liquid whose predicted velocities are known. The
+    /// volume of the fabric and of what it holds then counts as filled. Nothing if there are none.
+    std::optional<SharedFaces> findSharedFaces(const CutGrid& cut, const Vec3& gravity, double dt, const MetFabric& fabric, LiquidGrid& liquid);
     /// Velocities of these faces become the mixture's, and coefficients those that its pressure acts with.
     /// @param coefficient  of each face of the liquid's grid, ω dt β / dx² (PressureWorkspace)
     EliminatedDrag eliminateDrag(const SharedFaces&, const ObstacleField& obstacles, LiquidGrid& liquid, BlockArray<double, 3>& coefficient);
@@ -95,7 +106,7 @@ class Mixture {
 
  private:
     using Faces = BlockArray<double, 3>;
-    bool matchBlocks(const BlockGrid& grid);
+    bool matchBlocks(const BlockGrid& vertices, const BlockGrid& grid);
     void findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
     void addSuction(const CutGrid& cut, const FabricState& state, const LiquidGrid& liquid);
     void mixVelocities(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid);
@@ -130,8 +141,8 @@ class Mixture {
     double liquidDensity_;  ///< [g/cm^3]
     CouplingSettings settings_;
     Suction suction_;
-    double dt_ = 0.0;  ///< of the step under way [s]
-    SortedVertices& vertices_;
+    double dt_ = 0.0;                     ///< of the step under way [s]
+    SortedVertices* vertices_ = nullptr;  ///< vertices of the step under way
     FabricOnFaces onFaces_;
     std::vector<int> liquidBlock_;  ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
 

@@ -45,6 +45,7 @@ double Mixture::speedAt(int block, int axis, int cell) const
 /// @param room  of the face outside obstacles [-]
 double Mixture::dragOn(int b, int a, int c, double liquidVolume, double room) const
 {
+    if (settings_.drag == DragLaw::Off) return 0.0;
     const double cell = std::pow(onFaces_.grid().dx, 3);
     const double fibres = onFaces_.fibres.block(b, a)[c], solid = onFaces_.solid.block(b, a)[c];
     const double shape = onFaces_.shape.block(b, a)[c], square = onFaces_.squares.block(b, a)[c];

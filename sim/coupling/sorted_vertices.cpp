@@ -38,8 +38,10 @@ ReachedBlocks reachedBlocks(const BlockGrid& grid, const Vec3& x)
 
 }  // namespace
 
-void SortedVertices::sort(const BlockGrid& liquid, const FabricState& state)
+SortedVertices& VertexSorter::sort(const BlockGrid& liquid, const FabricState& state)
 {
+    Particles& particles = sorted_.particles;
+    BlockGrid& grid = sorted_.grid;
     grid.dx = liquid.dx;
     grid.origin = liquid.origin;
     particles.modeCount = 1;
@@ -63,7 +65,8 @@ void SortedVertices::sort(const BlockGrid& liquid, const FabricState& state)
         for (int a = 0; a < kAxes; ++a) particles.x[a][p] = state.x[v][a];
         ++p;
     }
-    sortParticles(particles, grid, nullptr, order, nullptr);
+    sortParticles(particles, grid, nullptr, sorted_.order, nullptr);
+    return sorted_;
 }
 
 bool reachesLiquid(const BlockGrid& liquid, const FabricState& state)

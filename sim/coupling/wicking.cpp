@@ -228,11 +228,11 @@ void Wicking::transport(double h, FabricState& state)
     state.v.swap(velocity_);
 }
 
-void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
-                   FabricState& state)
+std::span<const Vec3> Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure,
+                                    std::span<const Vec3> before, FabricState& state)
 {
     std::ranges::fill(pinImpulse_, Vec3::Zero());
-    if (!(settings_.rateScale > 0.0)) return;
+    if (!(settings_.rateScale > 0.0)) return pinImpulse_;
     const int parts = substeps(dt);
     const double h = dt / parts;
     parallelFor(before.size(), kGrain, [&](std::size_t v) { acceleration_[v] = (state.v[v] - before[v]) / dt; });
@@ -243,6 +243,7 @@ void Wicking::move(double dt, const Vec3& gravity, const BlockGrid& grid, const 
         limitDonors(h, state);
         transport(h, state);
     }
+    return pinImpulse_;
 }
 
 }  // namespace sim

@@ -5,7 +5,6 @@
 #include "sim/grid/block_grid.h"
 #include "sim/settings.h"
 
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -17,14 +16,11 @@ class Wicking {
  public:
     Wicking(const Fabric& fabric, const PorousElements& elements, const Settings& settings);
 
-    /// Over dt [s], in substeps as short as stability and solver.wicking_substeps ask for.
+    /// Moves the liquid over dt [s], in substeps as short as stability and solver.wicking_substeps ask for.
     /// @param before  velocity of each vertex when the step began [cm/s]
-    void move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure, std::span<const Vec3> before,
-              FabricState& state);
-    /// What pinned vertices, whose velocities stay, got of the liquid's momentum in the last call [g cm/s].
-    Vec3 pinImpulse() const { return std::accumulate(pinImpulse_.begin(), pinImpulse_.end(), Vec3::Zero().eval()); }
-    /// What each pinned vertex got of the liquid's momentum in the last call [g cm/s].
-    std::span<const Vec3> pinImpulseByVertex() const { return pinImpulse_; }
+    /// @return momentum of liquid that pins, whose velocities stay, held back of each vertex, until the next call [g cm/s]
+    std::span<const Vec3> move(double dt, const Vec3& gravity, const BlockGrid& grid, const BlockArray<double>& pressure,
+                               std::span<const Vec3> before, FabricState& state);
     /// Is there liquid in the fabric?
     bool isWet(const FabricState& state) const;
     int substeps(double dt) const;

@@ -6,19 +6,17 @@ namespace sim {
 namespace {
 
 /// Does anything go by the liquid that vertices see?
-bool asksForLiquidAround(const CouplingSettings& coupling)
-{
-    return coupling.capture.rate > 0.0 || (coupling.drag != DragLaw::Off && coupling.dragFraction == DragFraction::Fabric);
-}
+bool asksForLiquidAround(const CouplingSettings& coupling) { return coupling.capture.rate > 0.0 || isDragByFabric(coupling); }
 
-/// Are vertices of the fabric in cells of the liquid, and do they see any of it?
-bool findVerticesInLiquid(StepContext& c)
+/// The vertices of the fabric that are in cells of the liquid, if they see any of it.
+void findVerticesInLiquid(StepContext& c)
 {
     Coupling& coupling = *c.work.coupling;
-    coupling.vertices.sort(c.state.grid, c.state.fabric);
-    if (coupling.vertices.empty()) return false;
-    return !asksForLiquidAround(c.settings().coupling) ||
-           coupling.around.find(c.state.grid, c.work.order, c.state.liquid, c.work.obstacleField, coupling.vertices);
+    SortedVertices& vertices = coupling.sorter.sort(c.state.grid, c.state.fabric);
+    if (vertices.empty()) return;
+    const bool asks = asksForLiquidAround(c.settings().coupling);
+    if (asks) c.plan.aroundFabric = coupling.around.find({c.state.liquid, c.work.order, c.state.grid}, c.work.obstacleField, vertices);
+    if (!asks || c.plan.aroundFabric) c.plan.vertices = &vertices;
 }
 
 }  // namespace
@@ -29,22 +27,22 @@ void capture(StepContext& c)
     const StageScope scope(c.clock, Stage::Capture);
     State& state = c.state;
     Coupling& coupling = *c.work.coupling;
-    c.plan.overlapsFabric = findVerticesInLiquid(c);
-    if (!c.plan.overlapsFabric) return;
+    findVerticesInLiquid(c);
+    if (!c.plan.aroundFabric) return;
     const ExchangeWatch watch(coupling.fabric, state, &c.work.order);
-    coupling.twist.store(coupling.fabric, state.fabric);
-    c.report.capturedMass = coupling.capture.capture(c.dt, state.grid, c.work.order, coupling.vertices, state.liquid, state.fabric);
-    coupling.twist.restore(coupling.fabric, state.fabric);
-    watch.expectKept(coupling.capture.pinImpulse());
-    c.work.momentum.exchanged(state, coupling.capture.pinImpulseByVertex());
+    coupling.twist.keep(coupling.fabric, state.fabric,
+                        [&] { c.plan.uptake = coupling.capture.capture(c.dt, *c.plan.aroundFabric, state.liquid, state.fabric); });
+    c.report.capturedMass = c.plan.uptake->mass;
+    watch.expectKept(c.plan.uptake->pinImpulse);
+    c.work.momentum.exchanged(state, c.plan.uptake->pinImpulse);
     c.energy.taken(EnergyChange::Capture);
 }
 
 void deleteCaptured(StepContext& c)
 {
-    if (!c.plan.overlapsFabric) return;
+    if (!c.plan.uptake) return;
     const StageScope scope(c.clock, Stage::Capture);
-    c.work.coupling->capture.removeEmptyParticles(c.state.liquid);
+    Capture::removeEmptyParticles(*c.plan.uptake, c.state.liquid);
 }
 
 void wick(StepContext& c)
@@ -54,12 +52,11 @@ void wick(StepContext& c)
     if (!c.plan.fabricIsWet) return;
     const StageScope scope(c.clock, Stage::Wicking);
     Coupling& coupling = *c.work.coupling;
-    {
-        const ExchangeWatch watch(coupling.fabric, state, nullptr);
+    const ExchangeWatch watch(coupling.fabric, state, nullptr);
+    const std::span<const Vec3> pinImpulse =
         coupling.wicking.move(c.dt, c.gravityOnFabric(), state.grid, state.pressure, coupling.velocityBefore, state.fabric);
-        watch.expectKept(coupling.wicking.pinImpulse());
-    }
-    c.work.momentum.exchanged(state, coupling.wicking.pinImpulseByVertex());
+    watch.expectKept(pinImpulse);
+    c.work.momentum.exchanged(state, pinImpulse);
     c.energy.taken(EnergyChange::Wicking);
 }
 
@@ -74,7 +71,7 @@ void drip(StepContext& c)
         const ExchangeWatch watch(c.work.coupling->fabric, state, nullptr);
         c.work.obstacles.moveTo(state.time, state.time + c.dt);  // for scenes in which no liquid has moved yet
         c.report.drippedMass = c.work.coupling->drip.drip(state, c.work.obstacles);
-        watch.expectKept(Vec3::Zero());
+        watch.expectKept({});
     }
     for (std::size_t p = before; p < particles.count; ++p) {
         c.report.energies.kinetic += 0.5 * particles.mass[p] * particles.velocity(p).squaredNorm();

@@ -13,13 +13,15 @@ void fabricToGrid(StepContext& c)
 
 void findMixture(StepContext& c)
 {
-    if (!c.plan.overlapsFabric) return;
+    if (!c.plan.overlapsFabric()) return;
     const StageScope scope(c.clock, Stage::Mixture);
     const std::optional<FabricFaces> faces = c.work.fabric->faces();
     // To reflect some faces of a liquid only would make momentum; those with fabric are not reflected (liquid/README.md, Reflection).
     c.plan.reflects = false;
-    c.plan.sharedFaces =
-        c.work.coupling->mixture.findSharedFaces(c.cut(), c.gravityOnFabric(), c.dt, c.state.fabric, faces ? &*faces : nullptr, c.work.grid);
+    std::span<const double> distance;
+    if (isDragByFabric(c.settings().coupling)) distance = c.plan.aroundFabric->distances();
+    const Mixture::MetFabric fabric{*c.plan.vertices, c.state.fabric, distance, faces ? &*faces : nullptr};
+    c.plan.sharedFaces = c.work.coupling->mixture.findSharedFaces(c.cut(), c.gravityOnFabric(), c.dt, fabric, c.work.grid);
 }
 
 void advanceFabric(StepContext& c)

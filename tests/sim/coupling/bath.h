@@ -24,7 +24,7 @@ struct Bath {
         FabricPiece yarn = testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03});
         cloth.material.volumeFraction = yarn.material.volumeFraction = 0.4;
         fabric = assembleFabric(std::vector<FabricPiece>{cloth, yarn});
-        around = LiquidAround(fabric.vertexCount());
+        distance.assign(fabric.vertexCount(), 0.0);
         state = restState(fabric);
         for (Vec3& v : state.v) v = 20.0 * noise.vector();
         scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * scene.grid.dx; });
@@ -49,6 +49,14 @@ struct Bath {
         }
     }
 
+    /// The fabric on the faces, without its envelopes.
+    FabricOnFaces onFaces()
+    {
+        FabricOnFaces faces(fabric, settings.liquid.density);
+        faces.spread(sorter.sort(scene.grid, state), state, {});
+        return faces;
+    }
+
     Vec3 momentum(const Mixture& mixture) const { return fabricMomentum() + mixture.liquidMomentum(*shared, scene.liquid); }
     /// A step of the two without pressure.
     void exchange(Mixture& mixture) { finish(mixture, eliminateDragWithoutPressure(mixture)); }
@@ -68,15 +76,16 @@ struct Bath {
     }
     bool find(Mixture& mixture)
     {
-        vertices.sort(scene.grid, state);
-        shared = mixture.findSharedFaces(scene.cut(), Vec3::Zero(), kStep, state, nullptr, scene.liquid);
+        const Mixture::MetFabric met{sorter.sort(scene.grid, state), state,
+                                     isDragByFabric(settings.coupling) ? std::span<const double>(distance) : std::span<const double>(), nullptr};
+        shared = mixture.findSharedFaces(scene.cut(), Vec3::Zero(), kStep, met, scene.liquid);
         return shared.has_value();
     }
 
     GridScene scene;
     Fabric fabric;
-    LiquidAround around{0};  ///< 0 from all vertices
-    SortedVertices vertices;
+    std::vector<double> distance;  ///< of the liquid from each vertex [cells]
+    VertexSorter sorter;
     FabricState state;
     Settings settings;
     std::optional<Mixture::SharedFaces> shared;  ///< of the last find()

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <optional>
 
 namespace sim::test {
 namespace {
@@ -22,27 +23,25 @@ struct Bath {
             testing::pieceOf(clothGrid({{9, 9}, {0.144, 0.144}, middle}), testing::wool(), {0.017, 0.017}),
             testing::pieceOf(strand(middle - Vec3(0.5, 0.3, 0.2), middle + Vec3(0.6, 0.1, 0.4), 8), testing::wool(), {0.05, 0.03})};
         fabric = assembleFabric(pieces);
-        around = LiquidAround(fabric.vertexCount());
+        around.emplace(fabric.vertexCount());
         state = restState(fabric);
         for (std::size_t v = 0; v < state.v.size(); ++v) state.v[v] = Vec3(3.0, -1.0, std::sin(static_cast<double>(v)));
         for (std::size_t p = 0; p < liquid.particles.count; ++p) liquid.particles.mass[p] *= kParticle;
         settings.cell = kCell;
-        vertices.sort(liquid.grid, state);
     }
     double capture(double dt)
     {
-        findAround();
-        Capture capture(fabric, around, settings, kParticle);
-        const double mass = capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
-        pinImpulse = capture.pinImpulse();
-        return mass;
+        Capture capture(fabric, settings, kParticle);
+        const Capture::Uptake uptake = capture.capture(dt, findAround(), liquid.particles, state);
+        pinImpulse = std::accumulate(uptake.pinImpulse.begin(), uptake.pinImpulse.end(), Vec3::Zero().eval());
+        return uptake.mass;
     }
-    void findAround()
+    LiquidAround::Found findAround()
     {
         ObstacleField none;
         const std::vector<int> unknown(liquid.grid.count(), BlockGrid::kNone);
         none.update(liquid.grid, unknown, Obstacles(), false);
-        ASSERT_TRUE(around.find(liquid.grid, liquid.order, liquid.particles, none, vertices));
+        return around->find({liquid.particles, liquid.order, liquid.grid}, none, sorter.sort(liquid.grid, state)).value();
     }
     double liquidMass() const { return std::accumulate(liquid.particles.mass.data(), liquid.particles.mass.data() + liquid.particles.count, 0.0); }
     double absorbed() const { return std::accumulate(state.absorbed.begin(), state.absorbed.end(), 0.0); }
@@ -55,9 +54,9 @@ struct Bath {
     }
 
     SortedLiquid liquid;
-    SortedVertices vertices;
+    VertexSorter sorter;
     Fabric fabric;
-    LiquidAround around{0};
+    std::optional<LiquidAround> around;
     FabricState state;
     Settings settings;
     Vec3 pinImpulse = Vec3::Zero();  ///< of the last capture [g cm/s]
@@ -88,17 +87,18 @@ TEST(Capture, TakesWholeParticles)
     for (double& volume : bath.fabric.volume) volume *= 1.0e6;
     const double mass = bath.liquidMass();
     const Vec3 momentum = bath.momentum();
-    Capture capture(bath.fabric, bath.around, bath.settings, kParticle);
+    Capture capture(bath.fabric, bath.settings, kParticle);
+    Capture::Uptake last;
     double captured = 0.0;
     for (int n = 0; n < 30; ++n) {
-        bath.findAround();
-        captured += capture.capture(10.0, bath.liquid.grid, bath.liquid.order, bath.vertices, bath.liquid.particles, bath.state);
+        last = capture.capture(10.0, bath.findAround(), bath.liquid.particles, bath.state);
+        captured += last.mass;
     }
     const std::size_t before = bath.liquid.particles.count;
     EXPECT_NEAR(bath.liquidMass() + captured, mass, 1.0e-13 * mass);
     EXPECT_LT((bath.momentum() - momentum).norm(), 1.0e-12 * momentum.norm());
     bath.liquid.moveModesHome();
-    capture.removeEmptyParticles(bath.liquid.particles);
+    Capture::removeEmptyParticles(last, bath.liquid.particles);
     EXPECT_LT(bath.liquid.particles.count, before);
     for (std::size_t p = 0; p < bath.liquid.particles.count; ++p) EXPECT_GT(bath.liquid.particles.mass[p], 0.0);
     EXPECT_NEAR(bath.liquidMass() + captured, mass, 1.0e-13 * mass);
@@ -155,9 +155,8 @@ struct Pool {
         liquid.sort();
         const Vec3 at = cell * place;
         fabric = testing::fabricOf(testing::pieceOf(strand(at, at + Vec3(20.0 * cell, 0.0, 0.0), 1), testing::wool(), {0.03, 0.03}));
-        around = LiquidAround(fabric.vertexCount());
+        around.emplace(fabric.vertexCount());
         state = restState(fabric);
-        vertices.sort(liquid.grid, state);
         const std::vector<int> unknown(liquid.grid.count(), BlockGrid::kNone);
         none.update(liquid.grid, unknown, Obstacles(), false);
     }
@@ -165,11 +164,13 @@ struct Pool {
     double capture(Capture& capture, double dt, int steps)
     {
         double sum = 0.0;
-        for (int n = 0; n < steps; ++n) {
-            around.find(liquid.grid, liquid.order, liquid.particles, none, vertices);
-            sum += capture.capture(dt, liquid.grid, liquid.order, vertices, liquid.particles, state);
-        }
+        for (int n = 0; n < steps; ++n) sum += capture.capture(dt, findAround(), liquid.particles, state).mass;
         return sum;
+    }
+
+    LiquidAround::Found findAround()
+    {
+        return around->find({liquid.particles, liquid.order, liquid.grid}, none, sorter.sort(liquid.grid, state)).value();
     }
 
     static constexpr int kPerCell = 4;
@@ -178,8 +179,8 @@ struct Pool {
     SortedLiquid liquid;
     ObstacleField none;
     Fabric fabric;
-    LiquidAround around{0};
-    SortedVertices vertices;
+    std::optional<LiquidAround> around;
+    VertexSorter sorter;
     FabricState state;
 };
 
@@ -188,7 +189,7 @@ TEST(Capture, PublishedLawTakesAShareOfTheLiquid)
 {
     Pool pool(kCell, {3.9, 4.2, 3.4});
     pool.settings.coupling.capture.law = CaptureLaw::Published;
-    Capture capture(pool.fabric, pool.around, pool.settings, pool.mass);
+    Capture capture(pool.fabric, pool.settings, pool.mass);
     const double dt = 1.0e-4, rate = 3.0 * 13.655;  // 3 κ, PorousLaw.SuctionAndCaptureOfTheUsualFabric [1/s]
     const double gained = pool.capture(capture, dt, 1);
     EXPECT_NEAR(gained, rate * dt * std::pow(kCell, 3), 1.0e-4 * gained);
@@ -207,7 +208,7 @@ TEST(Capture, FabricInLiquidFillsAtItsRate)
             const double dt = 1.0e-3, part = pool.settings.coupling.capture.rate * dt, room = poreVolume(pool.fabric, 0);
             const double capacity = std::min(room, 0.3 * std::pow(cell, 3));  // all that the test's small pool can give
             for (double& volume : pool.fabric.volume) volume *= capacity / room;
-            Capture ofShare(pool.fabric, pool.around, pool.settings, pool.mass);
+            Capture ofShare(pool.fabric, pool.settings, pool.mass);
             EXPECT_NEAR(pool.capture(ofShare, dt, 1), part * capacity, 1.0e-12 * capacity);
             EXPECT_NEAR(pool.capture(ofShare, dt, 1), part * capacity, 1.0e-12 * capacity);
             pool.capture(ofShare, dt, static_cast<int>(1.0 / part));
@@ -221,7 +222,7 @@ TEST(Capture, WhatDoesNotWetStaysOutside)
         Pool pool(kCell, {3.9, 4.2, 3.4});
         pool.settings.coupling.capture.law = law;
         pool.settings.liquid.contactAngle = 0.55 * kPi;
-        Capture capture(pool.fabric, pool.around, pool.settings, pool.mass);
+        Capture capture(pool.fabric, pool.settings, pool.mass);
         EXPECT_EQ(pool.capture(capture, 0.01, 3), 0.0);
     }
 }
@@ -239,8 +240,7 @@ TEST(LiquidAround, TellsHowFarLiquidIs)
             const std::vector<int> unknown(pool.liquid.grid.count(), BlockGrid::kNone);
             pool.none.update(pool.liquid.grid, unknown, walls, false);
         }
-        EXPECT_TRUE(pool.around.find(pool.liquid.grid, pool.liquid.order, pool.liquid.particles, pool.none, pool.vertices));
-        return pool.around.distanceAt(0);
+        return pool.findAround().distanceAt(0);
     };
     for (double shift : {0.0, 0.2, 0.4, 0.6, 0.8}) {
         const auto at = [&](double height) { return distanceAt(Vec3(4.0 + shift, height, 4.4), false); };

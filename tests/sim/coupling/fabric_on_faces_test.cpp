@@ -22,15 +22,19 @@ struct Spread {
                     : testing::pieceOf(clothGrid({{7, 9}, {0.144, 0.144}, middle + off}), testing::wool(), {0.017, 0.017});
         second.material.density = secondDensity;
         fabric = assembleFabric(std::vector<FabricPiece>{first, second});
-        around = LiquidAround(fabric.vertexCount());
         state = restState(fabric);
         testing::Noise noise(3);
         if (isWet)
             for (std::size_t v = 0; v < state.absorbed.size(); ++v) state.absorbed[v] = (1.0 + noise()) * fabric.mass[v];
         scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * scene.grid.dx; });
-        vertices.sort(scene.grid, state);
-        faces.emplace(fabric, kWater, &around, vertices);
-        faces->spread(state);
+        faces.emplace(fabric, kWater);
+        spread();
+    }
+    /// Liquid touches all of the fabric.
+    void spread()
+    {
+        const std::vector<double> distance(fabric.vertexCount(), 0.0);
+        faces->spread(sorter.sort(scene.grid, state), state, distance);
     }
     double fibres() const
     {
@@ -51,9 +55,8 @@ struct Spread {
 
     GridScene scene;
     Fabric fabric;
-    LiquidAround around{0};  ///< 0 from all vertices
     FabricState state;
-    SortedVertices vertices;
+    VertexSorter sorter;
     std::optional<FabricOnFaces> faces;
 };
 
@@ -117,8 +120,7 @@ TEST(FabricOnFaces, EnvelopesFollowTheStretch)
         EXPECT_NEAR(spread.sum(spread.faces->touched, 1), whole, 1.0e-12 * whole);
         const Vec3 middle = spread.scene.corner(Vec3i(8, 8, 8));
         for (Vec3& x : spread.state.x) x = middle + 1.2 * (x - middle);
-        spread.vertices.sort(spread.scene.grid, spread.state);
-        spread.faces->spread(spread.state);
+        spread.spread();
         EXPECT_NEAR(spread.sum(spread.faces->envelope, 1), grown, 1.0e-12 * whole);
         EXPECT_NEAR(spread.sum(spread.faces->fibres, 1), fibres, 1.0e-12 * whole);
     }

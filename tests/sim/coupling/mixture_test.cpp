@@ -13,7 +13,7 @@ namespace {
 TEST(Mixture, DragKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;
-    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.settings);
     ASSERT_TRUE(reachesLiquid(bath.scene.grid, bath.state));
     ASSERT_TRUE(bath.find(mixture));
     const Vec3 liquidBefore = mixture.liquidMomentum(*bath.shared, bath.scene.liquid), fabricBefore = bath.fabricMomentum();
@@ -38,10 +38,9 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
 {
     Bath bath;
     GridScene& scene = bath.scene;
-    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.settings);
     ASSERT_TRUE(bath.find(mixture));
-    FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
-    fabric.spread(bath.state);
+    FabricOnFaces fabric = bath.onFaces();
     const Vec3 liquidBefore = mixture.liquidMomentum(*bath.shared, scene.liquid);
     const double energyBefore = mixture.kinetic(*bath.shared, scene.liquid.faces.velocity);
     const Mixture::AppliedPressure applied = mixture.applyPressure(bath.eliminateDragWithoutPressure(mixture), scene.liquid);
@@ -70,7 +69,7 @@ TEST(Mixture, DragOnFacesKeepsMomentumAndMakesNoEnergy)
 TEST(Mixture, PressureActsOnAllTheRoom)
 {
     Bath bath(DragLaw::Off);
-    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.settings);
     GridScene& scene = bath.scene;
     ASSERT_TRUE(bath.find(mixture));
     PressureFaces faces = scene.pressureFaces(kStep);
@@ -102,7 +101,7 @@ TEST(Mixture, PairsAnswerWithTheMassOfBothPhases)
             testing::Noise noise(seed);
             for (int b = 0; b < scene.grid.count(); ++b)  // down to almost nothing
                 for (int i = 0; i < 3 * kBlockCells; ++i) scene.liquid.faces.sums.block(b)[i] *= std::pow(10.0, -3.0 + 3.0 * noise());
-            Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+            Mixture mixture(bath.fabric, bath.settings);
             EXPECT_TRUE(bath.find(mixture));
             const Mixture::EliminatedDrag eliminated = bath.eliminateDragWithoutPressure(mixture);
             const auto massesBefore = scene.liquid.faces.sums;

@@ -32,7 +32,7 @@ struct Stack {
             pieces.push_back(sheet);
         }
         fabric = assembleFabric(pieces);
-        around = LiquidAround(fabric.vertexCount());
+        distance.assign(fabric.vertexCount(), 0.0);
         state = restState(fabric);
         settings.cell = kCell;
         settings.gravity.setZero();
@@ -41,16 +41,16 @@ struct Stack {
     /// Throws std::bad_optional_access where liquid and fabric share no faces.
     Mixture::SharedFaces find(Mixture& mixture)
     {
-        vertices.sort(scene.grid, state);
-        return mixture.findSharedFaces(scene.cut(), settings.gravity, kStep, state, nullptr, scene.liquid).value();
+        const std::span<const double> distances = isDragByFabric(settings.coupling) ? std::span<const double>(distance) : std::span<const double>();
+        const Mixture::MetFabric met{sorter.sort(scene.grid, state), state, distances, nullptr};
+        return mixture.findSharedFaces(scene.cut(), settings.gravity, kStep, met, scene.liquid).value();
     }
     /// Liquid on the faces around the fabric, less what the fibres take up.
     void makeRoom()
     {
         scene.setMasses();
-        vertices.sort(scene.grid, state);
-        FabricOnFaces faces(fabric, settings.liquid.density, nullptr, vertices);
-        faces.spread(state);
+        FabricOnFaces faces(fabric, settings.liquid.density);
+        faces.spread(sorter.sort(scene.grid, state), state, {});
         for (int b = 0; b < faces.grid().count(); ++b) {
             const int to = scene.grid.find(faces.grid().coords(b));
             if (to == BlockGrid::kNone) continue;
@@ -73,8 +73,8 @@ struct Stack {
 
     GridScene scene;
     Fabric fabric;
-    LiquidAround around{0};  ///< 0 from all vertices
-    SortedVertices vertices;
+    std::vector<double> distance;  ///< of the liquid from each vertex [cells]
+    VertexSorter sorter;
     FabricState state;
     Settings settings;
 };
@@ -89,7 +89,7 @@ TEST(DarcyColumn, RunsAtTheVelocityOfTheModel)
     GridScene& scene = stack.scene;
     const Vec3 middle = scene.corner(Vec3i(8, 8, 8));
     scene.fill([&](const Vec3& x) { return (x - middle).cwiseAbs().maxCoeff() - 6.4 * kCell; });
-    Mixture mixture(stack.fabric, stack.around, stack.settings, stack.vertices);
+    Mixture mixture(stack.fabric, stack.settings);
     constexpr double kSlope = 300.0;  // dyn/cm^3
     for (int n = 0; n < 60; ++n) {
         stack.makeRoom();
@@ -137,7 +137,7 @@ double standInTank(Stack& stack)
 {
     fillTank(stack, Vec3i(2, 2, 2), Vec3i(14, 16, 14));
     stack.scene.setVelocities([&](const Vec3&) { return Vec3(kStep * stack.settings.gravity); });
-    Mixture mixture(stack.fabric, stack.around, stack.settings, stack.vertices);
+    Mixture mixture(stack.fabric, stack.settings);
     const Mixture::AppliedPressure applied = pressAndDrag(stack, mixture);
     mixture.recoverPhaseVelocities(applied, stack.state, stack.scene.liquid);
     return stack.scene.largestError([](const Vec3&) { return Vec3::Zero().eval(); });
@@ -193,7 +193,7 @@ void sinkAtTheSpeedOfDrag(DragFraction by)
     GridScene& scene = stack.scene;
     fillTank(stack, Vec3i(6, 2, 6), Vec3i(10, 16, 10));  // the sheets reach farther
     scene.setVelocities([](const Vec3&) { return Vec3::Zero().eval(); });
-    Mixture mixture(stack.fabric, stack.around, stack.settings, stack.vertices);
+    Mixture mixture(stack.fabric, stack.settings);
     constexpr std::size_t kPerSheet = 17 * 17;
     const std::size_t middle = stack.state.v.size() / 2;
     for (int n = 0; n < 60; ++n) {

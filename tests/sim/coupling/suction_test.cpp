@@ -28,7 +28,7 @@ TEST(Mixture, SuctionDrawsLiquidIntoEmptyPores)
         double middle = 0.0;
         for (const Vec3& x : bath.state.x) middle += x.y() / static_cast<double>(bath.state.x.size());
         fillBelow(bath, middle - 0.5 * bath.scene.grid.dx);
-        Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+        Mixture mixture(bath.fabric, bath.settings);
         ASSERT_TRUE(bath.find(mixture));
         bath.exchange(mixture);
         const Vec3 up = mixture.liquidMomentum(*bath.shared, bath.scene.liquid);
@@ -53,7 +53,7 @@ TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
         for (Vec3& v : bath.state.v) v.setZero();
         bath.settings.coupling.capillary = bath.settings.coupling.capillaryReaction = true;
         fillBelow(bath, bath.scene.corner(Vec3i(8, 8, 8)).y() + dx * noise());
-        Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+        Mixture mixture(bath.fabric, bath.settings);
         ASSERT_TRUE(bath.find(mixture));
         const Mixture::AppliedPressure applied = mixture.applyPressure(bath.eliminateDragWithoutPressure(mixture), bath.scene.liquid);
         double fastest = 0.0;  // cm/s
@@ -61,8 +61,7 @@ TEST(Mixture, ReactionOfSuctionMovesNoFaceFasterThanTheVerticesThatDraw)
         for (std::size_t v = 0; v < bath.fabric.vertexCount(); ++v)
             fastest = std::max(fastest, loads.impulse[v].cwiseAbs().maxCoeff() / bath.fabric.mass[v]);
         ASSERT_GT(fastest, 0.0);
-        FabricOnFaces fabric(bath.fabric, bath.settings.liquid.density, nullptr, bath.vertices);
-        fabric.spread(bath.state);
+        FabricOnFaces fabric = bath.onFaces();
         const FaceLoads onFaces = mixture.faceLoads(applied);
         double fastestFace = 0.0;
         Vec3 sum = Vec3::Zero();
@@ -87,7 +86,7 @@ TEST(Mixture, FullPoresDoNotSuck)
     bath.settings.coupling.capillary = true;
     for (Vec3& v : bath.state.v) v.setZero();
     bath.scene.setRandomVelocities(0.0);  // fabric amid liquid: every cell that it reaches is full
-    Mixture mixture(bath.fabric, bath.around, bath.settings, bath.vertices);
+    Mixture mixture(bath.fabric, bath.settings);
     ASSERT_TRUE(bath.find(mixture));
     bath.exchange(mixture);
     EXPECT_LT(mixture.liquidMomentum(*bath.shared, bath.scene.liquid).norm(), 1.0e-12);

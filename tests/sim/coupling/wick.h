@@ -31,10 +31,8 @@ struct Wick {
     void run(double dt, int steps, const Vec3& gravity)
     {
         Wicking wicking(fabric, elements, settings);
-        for (int n = 0; n < steps; ++n) {
-            wicking.move(dt, gravity, BlockGrid(), BlockArray<double>(), before, state);
-            pinImpulse += wicking.pinImpulse();
-        }
+        for (int n = 0; n < steps; ++n)
+            for (const Vec3& held : wicking.move(dt, gravity, BlockGrid(), BlockArray<double>(), before, state)) pinImpulse += held;
     }
 
     Fabric fabric;
