@@ -24,13 +24,13 @@ class SimulationHandle {
     virtual ~SimulationHandle() = default;
     virtual const sim::State& state() const = 0;
     virtual const sim::Fabric& fabric() const = 0;            ///< what state().fabric is the state of
-    virtual const sim::ActiveContacts* contacts() const = 0;  ///< between fabric and fabric, of the last step; null where there are none
+    virtual const sim::ActiveContacts* contacts() const = 0;  ///< contacts between fabric and fabric in the last step; null where there are none
     virtual const sim::LiquidGrid& liquidGrid() const = 0;    ///< fields of the last step, in state().grid
     virtual const sim::Forces& forces() const = 0;            ///< forces of the last step
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
     virtual sim::Energies energies() const = 0;  ///< energies of the state as it is [erg]
-    virtual void bookEnergy() = 0;               ///< from now on reports tell where energy goes
+    virtual void bookEnergy() = 0;               ///< makes reports tell from now on where energy goes
     virtual std::uint64_t stateHash() const = 0;
     virtual void setChanges(std::vector<sim::SettingsChange> changes) = 0;  ///< see sim::Simulation
 };

@@ -13,7 +13,7 @@ struct ClothMesh {
     struct Vertex {
         Eigen::Vector3f position, normal;  ///< [cm], [-]
         std::uint32_t source;              ///< the position in the view that it comes from
-        bool isBack;                       ///< on the side from which triangles are seen clockwise
+        bool isBack;                       ///< whether it is on the side from which triangles are seen clockwise
     };
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;

@@ -13,7 +13,7 @@ struct Plan {
     int columns = 1, rows = 1;
     int panelWidth = 0, panelHeight = 0;
     float letter = 0.0f;                     ///< size of text
-    int gap = 0;                             ///< between panels and around all
+    int gap = 0;                             ///< gap between panels and around all
     int header = 0, labels = 0, footer = 0;  ///< heights of the strips of text
 
     int width() const { return evened(columns * panelWidth + (columns + 1) * gap); }

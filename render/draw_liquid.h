@@ -35,7 +35,7 @@ class DrawLiquid {
     Buffer positions_, values_;
     ColorMapTexture colorMap_;
     VisibleParticles visible_;
-    std::map<int, Eigen::Vector2f> pointShift_;  ///< by number of samples [pixels]
+    std::map<int, Eigen::Vector2f> pointShift_;  ///< shift of points, by the number of samples [pixels]
 };
 
 }  // namespace render

@@ -14,7 +14,7 @@ class DrawShading {
         bool any = false;        ///< whether the picture has solids, pixels of alpha 0
         bool all = false;        ///< whether it has solids only
         GLuint openness = 0;     ///< the texture that DrawOcclusion filled
-        float occlusion = 0.0f;  ///< how much it darkens them: 0 … 1
+        float occlusion = 0.0f;  ///< strength with which occlusion darkens them: 0 … 1
     };
 
     DrawShading(const Gl& gl, const std::filesystem::path& shaderDir);

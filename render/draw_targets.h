@@ -36,7 +36,7 @@ class DrawTargets {
     Renderbuffer sceneColor_, sceneDepth_, pictureColor_;
     Texture color_, depth_, openness_;
     Framebuffer scene_, resolved_, occlusion_, picture_;
-    bool hasOpenness_ = false;  ///< its texture is made when it is first needed
+    bool hasOpenness_ = false;  ///< whether the texture of openness is there, which is made when it is first needed
 };
 
 }  // namespace render

@@ -34,7 +34,7 @@ Plane luminancePlane(const Image& image)
     return plane;
 }
 
-constexpr int kReach = 5;  ///< of the window to either side [pixels]
+constexpr int kReach = 5;  ///< reach of the window to either side [pixels]
 using Window = std::array<double, 2 * kReach + 1>;
 
 Window gaussian()
@@ -45,7 +45,7 @@ Window gaussian()
     return weights;
 }
 
-/// Of every place on a line of pixels one over the weight of the window's part that lies on the line.
+/// One over the weight of the window's part that lies on a line of pixels, for every place of the line.
 std::vector<double> windowScales(const Window& weights, int length)
 {
     std::vector<double> scales(static_cast<std::size_t>(length));

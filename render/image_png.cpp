@@ -53,7 +53,7 @@ bool encode(png_structp png, png_infop info, const Image& image, std::span<png_t
     return true;
 }
 
-/// The same texts as libpng takes them, which is without const.
+/// The texts as libpng takes them, which is without const.
 std::vector<png_text> lendTexts(PngTexts& texts)
 {
     std::vector<png_text> lent;

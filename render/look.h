@@ -33,7 +33,7 @@ inline const std::vector<Eigen::Vector3f> kFabricColors = {{0.80f, 0.70f, 0.55f}
 struct FabricLook {
     bool isShown = true;
     bool byValue = false;                                 ///< colour map instead of one colour per material
-    std::vector<Eigen::Vector3f> colors = kFabricColors;  ///< by material, again from the first when they run out
+    std::vector<Eigen::Vector3f> colors = kFabricColors;  ///< colours of the materials, again from the first when they run out
     Eigen::Vector3f wetColor = {0.10f, 0.20f, 0.60f};     ///< colour of what is soaked; between, where it is less wet
     ColorMap colorMap = ColorMap::Viridis;
     std::array<float, 2> range = {0.0f, 1.0f};  ///< values at the ends of the colour map

@@ -16,7 +16,7 @@ struct MeshEdges {
         Eigen::Vector3f normal0, normal1;  ///< normals of the faces left and right; equal at an open border
         bool isSharp = false;              ///< a crease or a border; others show as silhouettes only
     };
-    std::vector<Edge> edges;                                    ///< without those inside of flat faces
+    std::vector<Edge> edges;                                    ///< edges, without those inside of flat faces
     std::vector<std::array<Eigen::Vector3f, 3>> cornerNormals;  ///< per triangle: smooth, but for creases
     std::vector<float> bend;                                    ///< per triangle: its curvature · the mesh's half diagonal [-]
 };

@@ -31,7 +31,7 @@ void frame(Image& image, const PixelBox& box, Rgb ink)
     fill(image, {box.x + box.width, box.y, 1, box.height}, ink);
 }
 
-/// Of the letters beside an upright colour bar [pixels].
+/// Size of the letters beside an upright colour bar [pixels].
 float barTextSize(const Image& image) { return 0.9f * textSize(image.width, image.height); }
 
 }  // namespace

@@ -19,7 +19,7 @@ enum class Corner { TopLeft, TopCenter, TopRight };
 struct ColorBar {
     ColorMap map = ColorMap::Jet;
     std::array<float, 2> range = {0.0f, 200.0f};
-    std::string title = "speed [cm/s]";  ///< with the unit
+    std::string title = "speed [cm/s]";  ///< title with the unit
 
     bool operator==(const ColorBar&) const = default;
 };
@@ -48,7 +48,7 @@ void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bar
 
 /// All that is written over one picture.
 struct Annotations {
-    std::string label, time;  ///< at the top left and right; empty: none
+    std::string label, time;  ///< texts at the top left and right; empty: none
     std::vector<ColorBar> bars;
     Rgb ink;
 

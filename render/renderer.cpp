@@ -49,7 +49,7 @@ struct Renderer::Parts {
     DrawOverlay overlay;
     Font font;
     GLint maxSamples = 1;
-    std::optional<DrawTargets> targets;  ///< of the last picture's size
+    std::optional<DrawTargets> targets;  ///< targets of the last picture's size
 };
 
 namespace {
@@ -72,7 +72,7 @@ bool hasSolids(const FrameView& view, const Look& look)
     return solidObstacle || !view.surface.triangles.empty() || view.yarns.begin.size() > 1 || !view.cloth.triangles.empty();
 }
 
-/// From which distances solids darken each other [cm]: from what is next to the thickness of the fabric, or else small
+/// Distances from which on solids darken each other [cm]: from what is next to the thickness of the fabric, or else small
 /// in the scene, up to what makes folds and contacts read.
 std::array<float, 2> occlusionReach(const FrameView& view)
 {

@@ -51,13 +51,13 @@ class Strand {
     float a() const { return a_; }
     float b() const { return b_; }
     const Vector3f& x(int i) const { return yarns_.positions[first_ + i]; }
-    /// Of the smooth curve at a vertex, times an edge: half the way from neighbour to neighbour.
+    /// Slope of the smooth curve at a vertex, times an edge: half the way from neighbour to neighbour.
     Vector3f slope(int i) const
     {
         const int before = std::max(i - 1, 0), after = std::min(i + 1, size_ - 1);
         return (x(after) - x(before)) / static_cast<float>(after - before);
     }
-    /// At u in 0 … 1 between vertex i and the next: Catmull-Rom.
+    /// Ring at u in 0 … 1 between vertex i and the next: Catmull-Rom.
     Ring ring(int i, float u) const
     {
         const int j = std::min(i + 1, size_ - 1);

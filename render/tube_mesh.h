@@ -14,7 +14,7 @@ struct TubeMesh {
     struct Vertex {
         Eigen::Vector3f position, normal;   ///< [cm], [-]
         float turn;                         ///< length of the yarn at rest up to here / pitch of its plies [-]
-        float angle;                        ///< about the yarn, from m1 [turns]: 0 … 1
+        float angle;                        ///< angle about the yarn, from m1 [turns]: 0 … 1
         float value;                        ///< value of FrameView, or 0
         std::array<std::uint8_t, 4> color;  ///< alpha: 255 = this colour, 0 = that of the value
     };

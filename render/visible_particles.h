@@ -22,7 +22,7 @@ class VisibleParticles {
  private:
     struct Disc {
         float x, y;      ///< centre [pixels], x to the right, y up
-        float depth;     ///< from the eye along the view [cm]
+        float depth;     ///< distance from the eye along the view [cm]
         float diameter;  ///< [pixels]; 0: not to be judged, always drawn
     };
 

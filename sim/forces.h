@@ -31,8 +31,8 @@ struct Impulse {
 
 /// What acts on a solid or a fabric in a step.
 struct Load {
-    Impulse liquid;   ///< by liquid: pressure, drag, friction at walls, and the momentum of what fabric takes up and lets go
-    Impulse contact;  ///< by touching: fabric on solids, solids and other fabric on fabric
+    Impulse liquid;   ///< impulse by liquid: pressure, drag, friction at walls, and the momentum of what fabric takes up and lets go
+    Impulse contact;  ///< impulse by contact: fabric on solids, solids and other fabric on fabric
     Impulse sum() const { return liquid + contact; }
 };
 
@@ -41,8 +41,8 @@ struct Load {
 struct MomentumBalance {
     Vec3 change = Vec3::Zero();
     Vec3 weight = Vec3::Zero();
-    Vec3 entered = Vec3::Zero();     ///< with liquid from sources
-    Vec3 left = Vec3::Zero();        ///< with liquid that left the domain
+    Vec3 entered = Vec3::Zero();     ///< momentum that came with liquid from sources
+    Vec3 left = Vec3::Zero();        ///< momentum that went with liquid that left the domain
     Vec3 borne = Vec3::Zero();       ///< part of what solids and pins got that no force explains (MomentumBudget), taken from liquid and fabric
     Vec3 unresolved = Vec3::Zero();  ///< momentum that no force explains and nothing bears, given to liquid and fabric
 };
@@ -53,7 +53,7 @@ struct Forces {
     double dt = 0.0;              ///< [s]
     std::vector<Load> obstacles;  ///< loads of each of the scene's obstacles
     std::vector<Load> fabrics;    ///< loads of each fabric, without weight and pins
-    std::vector<Impulse> pins;    ///< by their fabric on each group of Fabric::Pins
+    std::vector<Impulse> pins;    ///< impulse by their fabric on each group of Fabric::Pins
     MomentumBalance balance;
 
     /// The hardest push of each fabric on a solid in the step.

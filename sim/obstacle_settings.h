@@ -16,11 +16,11 @@ struct ObstacleSettings {
     Motion motion;
     bool inside = false;                  ///< the scene said `inside: true`
     bool collide = true;                  ///< fabric feels it
-    bool cohesive = true;                 ///< and sticks to it where it is wet, if there is cohesion
+    bool cohesive = true;                 ///< fabric that is wet sticks to it, if there is cohesion
     std::optional<double> frictionAngle;  ///< friction angle of fabric on it; without: the fabric's own [rad]
     std::string where;                    ///< "drop.yaml:14", for messages
     std::string shapeText;                ///< the shape (before inverting) as a scene says it, in cgs, on one line
-    std::vector<std::string> notes;       ///< about its meshes
+    std::vector<std::string> notes;       ///< notes about its meshes
     std::string motionText;               ///< the motion as a scene says it, in cgs, on one line; empty if static
 };
 

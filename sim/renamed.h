@@ -24,9 +24,9 @@ std::span<const Renamed> renamedFields();
 /// Options of the command line.
 std::span<const Renamed> renamedOptions();
 
-/// What a field or column of a file is called now: "seconds/backup" for "seconds/keep"; the same where nothing has changed.
+/// What a field or column of a file is called now: "seconds/backup" for "seconds/keep"; its own name where nothing has changed.
 std::string currentName(std::string_view field);
-/// What it was called before, likewise.
+/// What a field or column of a file was called before; its own name where nothing has changed.
 std::string formerName(std::string_view field);
 
 }  // namespace sim

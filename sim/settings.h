@@ -37,7 +37,7 @@ struct TransferSettings {
     double flipRatio = 0.99;      ///< FLIP share kept over dampingDt [0..1]
     double affineDamping = 0.0;   ///< Share of all modes but the mean that is lost over dampingDt; 0 = no damping [0..1]
     double dampingDt = 2.0e-4;    ///< Time step to which shares kept and lost refer [s]
-    bool dampingPerStep = false;  ///< They are taken per step as they are, as published
+    bool dampingPerStep = false;  ///< Shares kept and lost are taken per step as they are, as published
     bool dampModes = true;        ///< affineDamping acts on PolyPIC modes too
 
     /// N_r: modes per component gathered from the grid.
@@ -59,8 +59,8 @@ struct FabricTransferSettings {
     int modes = 8;                                    ///< PolyPIC modes per component, read by polypic only [1..kMostModes]
     XiMap xi = XiMap::Translation;
     double stretchDamping = 0.0;   ///< Share of the symmetric part of the velocity gradient that is lost over dampingDt [0..1]
-    double rotationDamping = 0.0;  ///< Of its antisymmetric part, likewise [0..1]
-    double velocityDamping = 0.0;  ///< Of the velocity itself, likewise [0..1]
+    double rotationDamping = 0.0;  ///< Share of the antisymmetric part of the velocity gradient that is lost over dampingDt [0..1]
+    double velocityDamping = 0.0;  ///< Share of the velocity that is lost over dampingDt [0..1]
 };
 
 struct RelaxSettings {
@@ -107,9 +107,9 @@ struct FabricSettings {
     TorsionModel torsion = TorsionModel::Ellipse;  ///< Ellipse: St-Venant; Polar: G times the polar moment, as published
     bool twist = true;                             ///< yarns resist twisting
     int newton = 2;                                ///< Newton iterations per step, vertex only
-    double tolerance = 0.0;  ///< of the linear solve. vertex: relative [-], 0 = 1e-2; grid: of speeds [cm/s], 0 = 5e-3 of gravity times the step
+    double tolerance = 0.0;  ///< error left by the linear solve. vertex: relative [-], 0 = 1e-2; grid: [cm/s], 0 = 5e-3 of gravity times the step
     bool contact = true;     ///< fabric touches itself and obstacles
-    int maxHalvings = 4;     ///< of a step that could not be taken, vertex only; of driven fabric at least 2 are made
+    int maxHalvings = 4;     ///< halvings of a step that could not be taken, vertex only; of driven fabric at least 2 are made
 };
 
 /// What fabric is like inside: fibres and the pores between them.
@@ -133,7 +133,7 @@ struct CaptureSettings {
     /// Part of its pores that fabric in liquid fills per time; 0 = it stays dry [1/s]. Law fabric. As measured: water wicks 0.3 cm into
     /// knits in the first second, by the root of time 0.06 cm, the thickness of a cloth, in 0.04 s (NCSU, vertical wicking of knits).
     double rate = 25.0;
-    double publishedRateFactor = 3.0;  ///< on the rate of the published law: 3 is the published one, 1 the physical, 0 = fabric stays dry [-]
+    double publishedRateFactor = 3.0;  ///< factor on the published law's rate: 3 is the published one, 1 the physical, 0 = fabric stays dry [-]
 };
 
 /// How liquid moves in fabric.

@@ -34,7 +34,7 @@ double relaxReach(const Scene& scene)
     return std::min(relax.range * radius, scene.settings.cell);
 }
 
-/// Of the source with the fewest particles, in cells; that of a lattice by default where there is none.
+/// Pitch of the source with the fewest particles, or of a lattice by default where there is none [cells].
 double pitchOfSources(const Scene& scene)
 {
     double pitch = 0.0;
@@ -43,7 +43,7 @@ double pitchOfSources(const Scene& scene)
     return pitch > 0.0 ? pitch : particleSpacing(FillSettings(), 1.0);
 }
 
-/// Of a particle that fabric lets go: like those of the first source [g].
+/// Mass of a particle that fabric lets go: like those of the first source [g].
 double nominalMass(const Scene& scene)
 {
     const FillSettings fill = scene.sources.empty() ? FillSettings() : scene.sources[0].fill;
@@ -57,7 +57,7 @@ double fastestOf(const FabricState& fabric)
 
 constexpr int kMostRejectedSteps = 10;   ///< halvings until a run gives up: to a thousandth of the step
 constexpr double kSecondIsFaster = 1.5;  ///< cells that the second of two steps may cross relative to time.cfl [-]
-constexpr double kGrowth = 1.2;          ///< of the longest step allowed, from each good one to the next, after one was rejected
+constexpr double kGrowth = 1.2;          ///< growth of the longest step allowed, from each good one to the next, after one was rejected
 
 double fastest(const LiquidParticles& particles)
 {
@@ -173,7 +173,7 @@ std::optional<Cohesion> Simulation::cohesion() const
     return Cohesion(fabric_, scene_.settings.liquid, settings);
 }
 
-/// From the state as it is: nothing is known of steps before.
+/// Begins from the state as it is: nothing is known of steps before.
 void Simulation::begin()
 {
     state_.memory.maxSpeed = fastest(state_.liquid);

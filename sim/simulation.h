@@ -35,7 +35,7 @@ class Simulation {
     const Forces& forces() const { return work_.momentum.forces(); }
     /// Energies of the initial state; afterwards the step's report tells them.
     Energies energies() const;
-    /// From now on reports tell where energy goes (sim/README.md, Energy).
+    /// Makes reports tell from now on where energy goes (sim/README.md, Energy).
     void bookEnergy();
 
     /// One time step towards `until` [s]: what is left is cut into equal parts no longer than the largest stable step, so that the time
@@ -44,7 +44,7 @@ class Simulation {
     /// of the last good step; in other modes it is, except for what the failed step moved.
     StepReport step(double until);
 
-    /// From now on the scene's changes are these. Those for steps that were taken already do nothing.
+    /// Gives the scene other changes from now on. Those for steps that were taken already do nothing.
     void setChanges(std::vector<SettingsChange> changes);
 
  private:

@@ -13,13 +13,13 @@ namespace sim {
 
 namespace {
 
-constexpr double kLostLiquid = 1.0e-9;  ///< of all liquid: a thousand times what rounding does in the longest runs [-]
-constexpr double kSurprise = 2.0;       ///< by how much speeds may turn out higher than the step was chosen for [-]
-constexpr double kEnergyGain = 0.05;    ///< of the energy there was: three times what the splash scenes gain at their starts from rest [-]
+constexpr double kLostLiquid = 1.0e-9;  ///< share of all liquid that may be lost: a thousand times what rounding does in the longest runs [-]
+constexpr double kSurprise = 2.0;       ///< ratio by which speeds may turn out higher than the step was chosen for [-]
+constexpr double kEnergyGain = 0.05;    ///< share of the energy that may be gained: three times what the splash scenes gain at their starts [-]
 constexpr double kQuiet = 0.01;         ///< energy counts from where it moves everything this far in a step [cells]
 constexpr double kDepth = 0.25;         ///< how far the middle of fabric may get into an obstacle, or by its own radius [cells]
 
-/// Of motion and elasticity [erg].
+/// Energy of motion and elasticity [erg].
 double activeEnergy(const Energies& e) { return e.kinetic + e.modal + e.fabric.kinetic + e.fabric.internal(); }
 
 struct Fastest {

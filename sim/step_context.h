@@ -17,7 +17,7 @@ struct StepPlan {
     bool fabricIsWet = false;     ///< fabric holds liquid
     // How far the liquid's cells and the system of its pressure have come, where there is liquid (liquid/cells.h, liquid/pressure.h).
     std::optional<SurfaceCells> surfaceCells;
-    std::optional<SurfaceSteps> surfaceSteps;  ///< where surface tension acts
+    std::optional<SurfaceSteps> surfaceSteps;  ///< steps of the pressure at the surface, where surface tension acts
     std::optional<PressureSystem> pressure;
     std::optional<HeldBodies> heldBodies;
     // The fabric in the liquid.

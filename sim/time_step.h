@@ -16,9 +16,9 @@ double cflNumber(const Settings& settings, double maxSpeed, double dt);
 /// Is the next step to reflect, if it is not the second of two? Liquid near fabric is not reflected.
 bool mayReflect(const State& state, const TimeSettings& time, const Workspace& work);
 
-/// With the integrator reflected, particles hold the velocities that they had halfway through their last step. Energies are those of
-/// then: by this much the potential energy was above that of the present places [erg], 0 after a step that reflects. Taken at different
-/// times their sum would swing by dt/2 times the power of the weight.
+/// Potential energy of halfway through the last step less that of the present places [erg], 0 after a step that reflects. With the
+/// integrator reflected particles hold the velocities of then, and energies are those of then: taken at different times their sum would
+/// swing by dt/2 times the power of the weight.
 double staggeredPotentialOffset(const State& state, const Settings& settings);
 
 }  // namespace sim

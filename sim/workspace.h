@@ -57,8 +57,8 @@ struct Workspace {
     Stage failedStage = Stage::Emit;           ///< stage of the last step that threw
     bool correctsStrain = false;               ///< the scene's free surfaces are of second order
     bool booksEnergy = false;                  ///< tell where energy goes: takes as long as a step
-    std::unique_ptr<Coupling> coupling;        ///< where there are liquid and fabric
-    std::unique_ptr<FabricIntegrator> fabric;  ///< by the scene's fabric.solver, where there is fabric
+    std::unique_ptr<Coupling> coupling;        ///< coupling, where there are liquid and fabric
+    std::unique_ptr<FabricIntegrator> fabric;  ///< integrator of the scene's fabric.solver, where there is fabric
 };
 
 }  // namespace sim

@@ -9,7 +9,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kGrowth = std::size_t{1} << 22;  ///< of a file in memory [bytes]
+constexpr std::size_t kGrowth = std::size_t{1} << 22;  ///< growth of a file in memory [bytes]
 
 const H5::PredType& typeOf(NumberType type)
 {

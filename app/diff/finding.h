@@ -8,7 +8,7 @@ namespace app {
 struct DiffFinding {
     std::string what;      ///< "energy.csv: total_erg"
     std::string words;     ///< how far apart both are and where; empty: not at all
-    bool differs = false;  ///< by more than the tolerance
+    bool differs = false;  ///< whether it differs by more than the tolerance
 };
 
 }  // namespace app

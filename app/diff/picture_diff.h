@@ -20,7 +20,7 @@ struct PictureDiff {
     PicturePair pair;
     std::string problem;  ///< why there are no numbers: missing, or of another size; else empty
     render::ImageDifference difference;
-    bool differs = false;  ///< by more than the tolerance
+    bool differs = false;  ///< whether they differ by more than the tolerance
 };
 
 /// Pictures of two folders by their names. Throws InputError where one of them has none.

@@ -11,7 +11,7 @@
 
 namespace app {
 
-/// In the place of a number that is not there.
+/// Number in the place of one that is not there.
 inline constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Numbers by column, one of each per row: a log of a run, or its report as one row. A row that lacks a column has kNothing in it.
@@ -32,7 +32,7 @@ Series readSeries(const std::filesystem::path& file);
 /// The numbers of report.json, without those that depend on the machine and the clock. Throws InputError.
 Series readReportNumbers(const std::filesystem::path& file);
 
-/// By column: the largest difference, relative to the largest number of A in the column (in the whole vector, for one of its
+/// Largest difference in each column, relative to the largest number of A in the column (in the whole vector, for one of its
 /// components), and when it is. Rows of equal times are held against each other; without times those of equal number.
 std::vector<DiffFinding> diffSeries(const Series& a, const Series& b, const Tolerance& tolerance);
 

@@ -14,7 +14,7 @@ namespace app {
 /// Holds states of two runs against each other, time after time: particles by their ids, vertices by their numbers.
 class StateDiff {
  public:
-    /// Both of the same frame.
+    /// Holds two states of one frame against each other.
     void add(const sim::State& a, const sim::State& b);
     bool isEmpty() const { return states_ == 0; }
     /// The time of the first states that are not the same to the last bit [s].
@@ -33,9 +33,9 @@ class StateDiff {
     };
     /// Who has no like in the other run.
     struct Missing {
-        std::size_t most = 0;     ///< at one time
-        std::uint64_t first = 0;  ///< one of them
-        double time = 0.0;        ///< when there are so many [s]
+        std::size_t most = 0;     ///< largest number of them at one time
+        std::uint64_t first = 0;  ///< first of them, by number
+        double time = 0.0;        ///< time when there are most [s]
         void offer(const std::vector<std::uint64_t>& ids, double t);
     };
     void addLiquid(const sim::LiquidParticles& a, const sim::LiquidParticles& b, double time);

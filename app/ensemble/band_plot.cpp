@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kAlongLine = " at ";  ///< between a probe's name and where along its line, as Probes::columns() has it
+constexpr const char* kAlongLine = " at ";  ///< text between a probe's name and where along its line, as Probes::columns() has it
 
 /// Numbers between 1 and 1000 on the axis of energies: a multiple of three.
 int energyScale(const std::vector<BandCurve>& curves)

@@ -12,7 +12,7 @@ namespace app {
 struct BandCurve {
     std::string label;
     Bands bands;
-    std::filesystem::path table;  ///< with bandsText of them
+    std::filesystem::path table;  ///< file with bandsText of the bands
 };
 
 /// A part of a plot.

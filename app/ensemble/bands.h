@@ -22,7 +22,7 @@ struct Bands {
     const Band* find(const std::string& column) const;
 };
 
-/// At the times of the first run, as far as all have come; others are interpolated to them, where steps are not the same in all of them.
+/// Bands at the times of the first run, as far as all have come; other runs are interpolated to them where their steps differ.
 Bands bandsOf(const std::vector<Series>& log);
 
 /// A table: the time, then of each column its mean, its standard deviation, and the lowest and the highest of all runs.

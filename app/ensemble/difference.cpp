@@ -21,7 +21,7 @@ constexpr double kSameWithin = 1.0e-11;
 /// Pairs that differ by less, relative to their numbers, do so by rounding.
 constexpr double kPairsSameWithin = 1.0e-9;
 
-/// Of the probability of an error, what pairs may use: Student's interval is for normal numbers, and among 20 that are drawn evenly or have two values
+/// Share of the probability of an error that pairs may use: Student's interval is for normal numbers, and among 20 drawn evenly or of two values it
 /// seems to find a difference in 1.25 and 1.35 % of cases where 1 % was asked for. Welch's with the fewest degrees of freedom needs no reserve.
 constexpr double kShareOfPairs = 0.5;
 
@@ -64,7 +64,7 @@ bool arePairsSame(const EnsembleColumn& a, const EnsembleColumn& b, double scale
     return difference <= std::max(kPairsSameWithin * largest, kSameWithin * scale);
 }
 
-/// By its name in the log, once; what is 0 everywhere is not worth a word.
+/// Adds a column by its name in the log, once; what is 0 everywhere is not worth a word.
 void addConstant(const EnsembleColumn& column, std::vector<std::string>& constant)
 {
     const std::string name = column.name.substr(0, column.name.rfind(", "));
@@ -112,7 +112,7 @@ Pairs pairsOf(const Ensemble& a, const Ensemble& b)
     return pairs;
 }
 
-/// Only the values of runs that have a pair, in the order of these.
+/// Columns with the values of runs that have a pair alone, in the order of the pairs.
 std::vector<EnsembleColumn> inOrder(std::vector<EnsembleColumn> columns, const Pairs& pairs, std::size_t std::pair<std::size_t, std::size_t>::*of)
 {
     for (EnsembleColumn& column : columns) {

@@ -20,8 +20,8 @@ struct ColumnDifference {
 /// Two ensembles.
 struct EnsembleDifference {
     std::string a, b;                         ///< labels
-    double confidence = 0.99;                 ///< with which all intervals together hold
-    std::vector<ColumnDifference> judged;     ///< each with 1 − (1 − confidence) / count, after Bonferroni
+    double confidence = 0.99;                 ///< confidence with which all intervals together hold
+    std::vector<ColumnDifference> judged;     ///< differences that are judged, each with 1 − (1 − confidence) / count, after Bonferroni
     std::vector<ColumnDifference> ofMachine;  ///< seconds and memory, which depend on what else the machine does: each at `confidence`, not judged
     std::vector<std::string> constant;        ///< what is the same in all runs of both, or in both runs of each pair, beside what is 0
     std::size_t runsA = 0, runsB = 0;

@@ -19,7 +19,7 @@ struct EnsembleRun {
 
 /// Runs of the same but for chance, as they are read back.
 struct Ensemble {
-    std::string label;              ///< in tables and legends
+    std::string label;              ///< name in tables and legends
     std::vector<EnsembleRun> runs;  ///< runs that are done
     std::size_t missing = 0;        ///< runs that did not get to their end, which do not count
     std::size_t timedFrom = 0;      ///< seconds and memory are those of this run and of those after it: others had more to do

@@ -144,7 +144,7 @@ ExportArray vertexNormals(const std::vector<Eigen::Vector3f>& positions, const s
     return normal;
 }
 
-/// Only the vertices that faces have: those of yarns are elsewhere.
+/// Part of the cloth, with the vertices that faces have: those of yarns are elsewhere.
 ExportPart clothPart(const sim::Fabric& fabric, const sim::FabricState& state, std::span<const float> saturation)
 {
     ExportPart part = emptyPart("cloth", ExportPart::Kind::Triangles);

@@ -30,7 +30,7 @@ struct ExportPart {
     std::vector<Eigen::Vector3f> positions;  ///< [cm]
     std::vector<int> begin;                  ///< lines only: of each in `positions`, and the end of the last
     std::vector<Eigen::Vector3i> triangles;  ///< triangles only; counter-clockwise as seen from outside of a body
-    std::vector<ExportArray> arrays;         ///< the same in every frame, also in one where there are no points
+    std::vector<ExportArray> arrays;         ///< arrays of the part: equal names in every frame, also in one where there are no points
 
     /// The array of that name; null where there is none.
     const ExportArray* find(std::string_view array) const;
@@ -51,7 +51,7 @@ std::string unitsOf(const ExportPart& part);
 struct ExportFrame {
     std::int64_t number = 0;        ///< 0 is the initial state
     double time = 0.0;              ///< [s]
-    std::vector<ExportPart> parts;  ///< the same names in the same order in all frames of a run
+    std::vector<ExportPart> parts;  ///< parts, by equal names and in one order in all frames of a run
 };
 
 /// Which frame was written, for collections.
@@ -62,8 +62,8 @@ struct FrameTime {
 
 /// What there is to be seen of a state: `liquid` (points in the order of their ids: velocity, speed, volume, id),
 /// `yarns` (lines: velocity, radius, saturation, absorbed, material), `cloth` (triangles: velocity, normal, saturation,
-/// absorbed, material) and every obstacle (triangles: velocity). Without yarns there is no part `yarns`, and likewise
-/// for cloth and for liquid that can never come. The same bits for any number of threads.
+/// absorbed, material) and every obstacle (triangles: velocity). Without yarns there is no part `yarns`, without cloth
+/// no `cloth`, and no `liquid` where none can ever come. The same bits for any number of threads.
 /// @param fabric     what state.fabric is the state of
 /// @param density    of the liquid [g/cm^3]
 /// @param obstacles  where they are at state.time

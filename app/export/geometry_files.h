@@ -11,7 +11,7 @@ namespace app {
 /// Where the geometry of a run is: geometry/ below its folder.
 std::filesystem::path geometryFolder(const std::filesystem::path& runFolder);
 
-/// Beside the geometry: on what it was made, and from what.
+/// File beside the geometry that tells on what it was made, and from what.
 inline constexpr std::string_view kGeometryProvenance = "provenance.json";
 
 /// "liquid_00012.vtp"

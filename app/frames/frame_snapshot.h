@@ -38,7 +38,7 @@ struct FrameSnapshot {
 
     struct Surface {
         std::vector<Eigen::Vector3f> positions, normals;  ///< [cm], [-]
-        std::vector<float> values;                        ///< as those of the particles
+        std::vector<float> values;                        ///< value of each position, as of the particles
         std::vector<Eigen::Vector3i> triangles;
     };
     struct Yarns {
@@ -50,14 +50,14 @@ struct FrameSnapshot {
     struct Cloth {
         std::vector<Eigen::Vector3f> positions;  ///< positions of all vertices of the fabric; empty without faces [cm]
         std::vector<Eigen::Vector3i> triangles;
-        std::vector<float> thickness, values, wetness;  ///< [cm]; as those of yarns
+        std::vector<float> thickness, values, wetness;  ///< thickness [cm]; values and wetness as of yarns
         std::vector<int> materials;
     };
 
     struct Lines {
         std::vector<Eigen::Vector3f> points;  ///< two per segment [cm]
         Eigen::Vector3f color = Eigen::Vector3f::Zero();
-        float width = 1.5f;  ///< and the rest as in render::FrameView::Lines
+        float width = 1.5f;  ///< width and what follows, as in render::FrameView::Lines
         bool isTapered = false;
         float rim = 0.0f, lift = 0.0f;
     };

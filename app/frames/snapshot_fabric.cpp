@@ -30,7 +30,7 @@ Vec3 materialDirection(const FabricState& state, int edge)
     return std::cos(state.theta[edge]) * u + std::sin(state.theta[edge]) * t.cross(u);
 }
 
-/// At vertex j of a strand: between those of the edges on either side.
+/// Direction of a strand at vertex j: between those of the edges on either side.
 Vec3 directionAt(const Fabric& fabric, const FabricState& state, int strand, int j)
 {
     const int before = fabric.strands.edgeBegin(strand) + j - 1, edges = fabric.strands.size(strand) - 1;

@@ -8,7 +8,7 @@ namespace {
 
 const Eigen::Vector3f kBlockColor = {0.55f, 0.62f, 0.70f}, kArrowColor = {0.10f, 0.11f, 0.13f}, kContactColor = {0.90f, 0.12f, 0.10f};
 
-/// From the corner at these block coordinates along this axis.
+/// Edge of a block from the corner at these block coordinates along this axis.
 struct BlockEdge {
     int axis;
     std::array<int, 3> corner;
@@ -33,7 +33,7 @@ std::vector<BlockEdge> edgesOf(const sim::BlockGrid& grid)
     return edges;
 }
 
-/// Of yarns, and half the thickness of cloth [cm].
+/// Largest radius of yarns, or half thickness of cloth [cm].
 double largestRadius(const sim::Fabric& fabric)
 {
     double radius = 0.0;

@@ -23,11 +23,11 @@ struct Arrows {
     FrameSnapshot::Lines shafts, heads;
 };
 
-/// From particles to where they come in `time` [s] at their velocity; lifted, so that those of the outermost particles
+/// Arrows from particles to where they come in `time` [s] at their velocity; lifted, so that those of the outermost particles
 /// are seen whole.
 Arrows velocityArrows(const sim::LiquidParticles& liquid, double time, float lift);
 
-/// From the one nearest point to the other of each pair, with the vertices at x; lifted out of the fabric, in whose
+/// Lines between the nearest points of each pair, with the vertices at x; lifted out of the fabric, in whose
 /// middle they lie.
 FrameSnapshot::Lines contactLines(const sim::ActiveContacts& contacts, const sim::Fabric& fabric, std::span<const sim::Vec3> x);
 

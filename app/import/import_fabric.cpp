@@ -33,7 +33,7 @@ ListedFabric listed(const FabricGroup& group, const Scene& scene)
     return out;
 }
 
-/// As it stands in the file, for want of a generator.
+/// The fabric as it stands in the file, for want of a generator.
 GeneratedFabric asListed(const ListedFabric& fabric)
 {
     GeneratedFabric out;

@@ -25,8 +25,8 @@ struct GeneratedFabric {
     std::vector<std::pair<std::string, std::string>> fields;  ///< keys and values as YAML, but material and radius
     std::string summary;                                      ///< "99 × 99 vertices, 0.144 cm apart"
     sim::FabricGeometry geometry;
-    std::vector<int> pointOf;  ///< of each generated vertex the listed one
-    double deviation = 0.0;    ///< the largest distance of the two [cm]
+    std::vector<int> pointOf;  ///< listed vertex of each generated one
+    double deviation = 0.0;    ///< largest distance of a listed and a generated vertex [cm]
 };
 
 /// A sheet of triangles on a lattice, wherever the numbering starts and however it runs; nothing if it is none.

@@ -24,7 +24,7 @@ struct NamedWeave {
 };
 constexpr NamedWeave kWeaves[] = {{Weave::Plain, "plain"}, {Weave::Twill, "twill"}, {Weave::Herringbone, "herringbone"}};
 
-/// Of each generated vertex the listed one, where both have the same yarns; else nothing.
+/// Listed vertex of each generated one, where both have the same yarns; else nothing.
 std::optional<std::vector<int>> matchYarns(const sim::FabricGeometry& generated, const ListedFabric& listed)
 {
     if (generated.strands.size() != listed.strands.size() || generated.points.size() != listed.points.size()) return std::nullopt;

@@ -20,7 +20,7 @@ using sim::Vec3i;
 struct Run {
     double duration = 0.0, dt = 0.0;  ///< [s]
     std::optional<int> picMethod;     ///< 0 PIC, 1 APIC, 2 PolyPIC
-    std::optional<bool> apic;         ///< of files of 2018
+    std::optional<bool> apic;         ///< the choice that files of 2018 have
     int maxIterations = 100;
     int viscositySubsteps = 1;
     double cell = 1.0;            ///< bucket over number of cells [cm]
@@ -30,11 +30,11 @@ struct Run {
 
 /// <liquidinfo>, as far as there is something like it here.
 struct LiquidInfo {
-    double density = 1.0, viscosity = 8.9e-3, surfaceTension = 72.8;                       ///< [g/cm^3], [P], [dyn/cm]
-    double contactAngle = 0.71209;                                                         ///< [rad]
-    double fibreDiameter = 0.01, volumeFraction = 0.4;                                     ///< [cm], [-]
-    std::string porousNote;                                                                ///< how the two came about, where that needs saying
-    double particleCellMultiplier = 0.3535533906;                                          ///< pitch of the sampling in cells [-]
+    double density = 1.0, viscosity = 8.9e-3, surfaceTension = 72.8;  ///< [g/cm^3], [P], [dyn/cm]
+    double contactAngle = 0.71209;                                    ///< [rad]
+    double fibreDiameter = 0.01, volumeFraction = 0.4;                ///< [cm], [-]
+    std::string porousNote;                                           ///< note on how the two came about, where that needs saying
+    double particleCellMultiplier = 0.3535533906;                     ///< pitch of the sampling in cells [-]
     double affineKept = 0.99, stretchKept = 0.95, rotationKept = 1.0, velocityKept = 1.0;  ///< shares kept per step [-]
     int fluidModes = 1, solidModes = 1;
     double yazdchiPower = 1.6, captureRate = 1.0;  ///< [-]
@@ -59,7 +59,7 @@ struct Material {
     std::array<double, 2> radius = {0.018, 0.018};  ///< radius and biradius [cm]
     bool hasBiradius = false;
     double young = 6.687e5, poisson = 0.35, density = 1.3, viscosity = 0.0;
-    std::optional<double> volumeFraction;  ///< without: that of liquidinfo
+    std::optional<double> volumeFraction;  ///< part of the envelope that fibres fill [-]; empty: as in liquidinfo
     bool damps = false, dampsOnlyBending = true;
     double stretchingMultiplier = 1.0, collisionMultiplier = 1.0e-3, attachMultiplier = 1.0e-3;
     double frictionAngle = 0.0;                 ///< [deg]
@@ -109,13 +109,13 @@ struct Field {
     int group = 0;
     bool sampled = true, inside = false;
     Vec3 center = Vec3::Zero(), axis = Vec3::UnitY();     ///< [cm], of the rotation
-    double angle = 0.0;                                   ///< about it [rad]
+    double angle = 0.0;                                   ///< angle of the rotation about the axis [rad]
     double radius = 0.0, halfLength = 0.0, corner = 0.0;  ///< [cm]
     Vec3 half = Vec3::Zero();                             ///< half size of a box, without its rounding [cm]
     std::string file;
     double scale = 1.0, dx = 0.0;     ///< scale and cell of a file [-], [cm]
     std::vector<int> parts;           ///< parts of a union or an intersection
-    bool isPart = false;              ///< of another field
+    bool isPart = false;              ///< whether it is a part of another field
     std::vector<Emission> emissions;  ///< emissions of a source, at least one
     int line = 1;
 };
@@ -126,7 +126,7 @@ struct Script {
     std::string course = "cubic";
     int group = 0;
     double start = 0.0, end = 0.0, easeStart = 0.0, easeEnd = 0.0;  ///< [s]
-    Vec3 direction = Vec3::Zero();                                  ///< of a translation its way, of a rotation its axis [cm] or [-]
+    Vec3 direction = Vec3::Zero();                                  ///< way of a translation [cm], or axis of a rotation [-]
     double angle = 0.0;                                             ///< [rad]
     std::optional<Vec3> origin;                                     ///< origin of a rotation [cm]
     bool isGlobal = false;

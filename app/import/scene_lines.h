@@ -5,7 +5,7 @@
 
 namespace app {
 
-/// As YAML has it.
+/// A truth value as YAML has it.
 inline const char* yesOrNo(bool holds) { return holds ? "true" : "false"; }
 
 /// The lines of a scene file that is being written, each with the line of the XML that it comes from.

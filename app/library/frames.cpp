@@ -19,7 +19,7 @@ namespace drench {
 
 namespace {
 
-/// The same as convertErrors where the renderer and the system have their say.
+/// Runs body(), errors of which become Error: those that convertErrors converts, and what the renderer and the system throw.
 template <class Body>
 decltype(auto) convertFailures(Body&& body)
 {
@@ -49,12 +49,12 @@ struct Frames::Parts {
     render::Image draw(const app::RealSimulation& simulation);
 
     app::PictureSettings pictures;
-    double density;  ///< of the liquid [g/cm^3]
+    double density;  ///< density of the liquid [g/cm^3]
     app::PlaceObstacles placeObstacles;
     std::unique_ptr<render::GlContext> context;
     render::Renderer renderer;
     app::FrameSnapshot snapshot;
-    std::optional<Eigen::AlignedBox3d> everything;  ///< in the first picture [cm]
+    std::optional<Eigen::AlignedBox3d> everything;  ///< box around everything in the first picture [cm]
 };
 
 render::Image Frames::Parts::draw(const app::RealSimulation& simulation)

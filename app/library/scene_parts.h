@@ -12,7 +12,7 @@ namespace drench {
 /// The tree of keys, which sim/scene reads, and what no key can say.
 struct Scene::Parts {
     sim::SceneFile file;
-    std::map<std::string, Motion> motions;  ///< by the names of their obstacles
+    std::map<std::string, Motion> motions;  ///< motions given by the program, by the names of their obstacles
 
     /// Throws sim::InputError.
     sim::Scene read() const;

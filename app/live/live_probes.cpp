@@ -7,7 +7,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kMostReadings = 10'000;  ///< that wait to be taken: of a window that is not drawn
+constexpr std::size_t kMostReadings = 10'000;  ///< readings that wait to be taken, of a window that is not drawn
 
 std::vector<ProbeTitle> titlesOf(const Probes& probes)
 {

@@ -39,7 +39,7 @@ class LiveProbes {
  private:
     void add(ProbeReading reading);
 
-    std::optional<ProbeReader> reader_;  ///< where the scene has probes
+    std::optional<ProbeReader> reader_;  ///< reader, where the scene has probes
 
     std::mutex mutex_;  ///< guards what follows
     LiveReadings waiting_;

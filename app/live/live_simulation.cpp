@@ -12,7 +12,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kMostSteps = 100'000;  ///< that wait to be taken: of a window that is not drawn
+constexpr std::size_t kMostSteps = 100'000;  ///< steps that wait to be taken, of a window that is not drawn
 
 }  // namespace
 
@@ -156,7 +156,7 @@ void LiveSimulation::goTo(const RewindBuffer::RewindPoint& moment)
     publishScene();
 }
 
-/// From the initial state of the scene as it is set.
+/// Starts again from the initial state of the scene as it is set.
 void LiveSimulation::resetSimulation()
 {
     const LoadedScene& setup = settings_.setup();

@@ -55,7 +55,7 @@ class LiveSimulation {
 
     void play();
     void pause();
-    void stepOnce();  ///< and pause
+    void stepOnce();  ///< takes one step and pauses
     void restart();   ///< go back to the initial state, and pause; all settings are as they were changed
     /// Go back to the latest moment that is not after it [s], and pause; settings stay as they are now.
     void goBackTo(double time);
@@ -70,7 +70,7 @@ class LiveSimulation {
 
     LiveStatus status() const;
     std::shared_ptr<const LiveScene> scene() const;
-    std::uint64_t stateHash();  ///< when the step in hand is over: waits for it
+    std::uint64_t stateHash();  ///< hash of the state when the step in hand is over: waits for it
     /// What has happened since the last call, oldest first.
     std::vector<LiveStep> takeSteps();
     LiveReadings takeReadings() { return probes_.take(); }  ///< readings of output.probes
@@ -101,7 +101,7 @@ class LiveSimulation {
     ChangedScene settings_;
     PlaceObstacles placeObstacles_;
     std::unique_ptr<SimulationHandle> simulation_;
-    std::optional<BlockedSources> blockedSources_;  ///< since it was started
+    std::optional<BlockedSources> blockedSources_;  ///< sources that were blocked since it was started
     LiveProbes probes_;                             ///< has a lock of its own
     RewindBuffer rewind_;
     std::int64_t frame_ = 0;       ///< the last one that was reached

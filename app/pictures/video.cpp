@@ -12,7 +12,7 @@ namespace app {
 
 namespace {
 
-/// From decoded pictures to a file any player takes. crf 16 shows no blocks in smooth colours.
+/// Arguments that turn decoded pictures into a file any player takes. crf 16 shows no blocks in smooth colours.
 std::vector<std::string> outputArguments(const std::string& codec, const std::filesystem::path& part)
 {
     // The comma inside min() is ffmpeg's own separator unless it is escaped; pictures that fit are left as they are.

@@ -13,7 +13,7 @@ namespace app {
 
 namespace {
 
-/// Of each column of a table whether any of its cells has a value.
+/// Tells for each column of a table whether any of its cells has a value.
 std::vector<bool> columnsWithValues(const std::filesystem::path& file, std::size_t columns)
 {
     std::vector<bool> has(columns, false);

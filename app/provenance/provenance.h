@@ -12,7 +12,7 @@ std::string programName();
 /// The processor as it calls itself; "unknown" where it does not.
 std::string processorName();
 
-/// On what a run is made, and from what, as a text of JSON: program, compiler, machine, libraries, command line, start, the scene as
+/// Text of JSON that tells on what a run is made, and from what: program, compiler, machine, libraries, command line, start, the scene as
 /// written and resolved.
 /// @param drawnBy  what draws the pictures, with its version; empty without pictures
 /// @param before   the same text of the run that is gone on with, or whose states are used; empty for one from the start

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using sim::Impulse, sim::Vec3;
 
-constexpr std::size_t kNumbers = 14, kLargest = 6, kFirst = 8;  ///< of a load in ForceTotals, and places among them
+constexpr std::size_t kNumbers = 14, kLargest = 6, kFirst = 8;  ///< numbers of a load in ForceTotals, and places among them
 
 Json vectorJson(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 

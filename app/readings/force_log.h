@@ -25,7 +25,7 @@ struct ForceNames {
 };
 
 /// Forces of steps that follow each other, summed up: their mean, and the largest of a step. Loads are those by liquid and by contact of the first
-/// obstacle, of the second and so on, likewise those of the fabrics, then those of the groups of pins.
+/// obstacle, of the second and so on, then of each fabric, then of each group of pins.
 struct ForceTotals {
     double time = 0.0;            ///< [s]
     double firstTime = 0.0;       ///< length of the last step, if it is the first of two [s]

@@ -78,7 +78,7 @@ double largest(const std::vector<Vec3>& velocities)
     return std::sqrt(square);
 }
 
-/// Between the lowest and the highest of the places for which takes(v) [cm]; 0 if there is none.
+/// Distance between the lowest and the highest of the places for which takes(v) [cm]; 0 if there is none.
 template <class Takes>
 double extent(const std::vector<Vec3>& places, int axis, Takes&& takes)
 {
@@ -135,7 +135,7 @@ void Measures::addLiquid(Names& names)
     names.push_back({"pressure", 3, [this](Arguments x) { return pressureAt({x[0], x[1], x[2]}); }});
 }
 
-/// Of the liquid, and of the fabric with what it has absorbed [g cm/s].
+/// Momentum of the liquid, and of the fabric with what it has absorbed [g cm/s].
 double Measures::momentum(int axis) const
 {
     double sum = 0.0;
@@ -237,7 +237,7 @@ double Measures::flowPart() const
     return sumOverFaces([](double u, double flow) { return u * flow; }) / sumOverFaces([](double, double flow) { return flow * flow; });
 }
 
-/// Of the cell with x in it, at its centre [dyn/cm^2].
+/// Pressure at the centre of the cell with x in it [dyn/cm^2].
 double Measures::pressureAt(const Vec3& x) const
 {
     const sim::State& state = simulation_->state();

@@ -37,7 +37,7 @@ struct ControlSurface {
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
 ///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
 ///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
-///    vertex), wet_a(saturation) (the same of vertices whose pores are that full);
+///    vertex), wet_a(saturation) (from the lowest to the highest of vertices whose pores are that full);
 ///  * forces [dyn] and torques about the origin [dyn cm], means over the steps since the last reading, 0 before the first: force_a("ball") and
 ///    torque_a("ball") of an obstacle or a fabric by liquid and contact together, liquid_force_a, liquid_torque_a, contact_force_a and
 ///    contact_torque_a by one of them, pin_force_a("sheet") and pin_torque_a by a fabric on all its pins, or on those of that name.

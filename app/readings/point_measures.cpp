@@ -81,7 +81,7 @@ double Measures::velocityAt(int axis, const Vec3& x) const
     return mass > 0.0 ? momentum / mass : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Of the vertex next to a point [-].
+/// Saturation of the vertex next to a point [-].
 double Measures::saturationAt(const Vec3& x) const
 {
     const std::vector<Vec3>& places = simulation_->state().fabric.x;

@@ -13,7 +13,7 @@ class EnergyLedger {
     /// How far it has come.
     struct Summary {
         double first = 0.0;            ///< energy at the start [erg]
-        sim::EnergyChanges changes;    ///< since the start [erg]
+        sim::EnergyChanges changes;    ///< changes since the start [erg]
         double largestKinetic = 0.0;   ///< largest kinetic energy of liquid and fabric [erg]
         double largestResidual = 0.0;  ///< change of the energy that no part of the steps has booked [erg]
     };

@@ -10,7 +10,7 @@ namespace app {
 /// One curve of the energy plot.
 struct EnergyCurve {
     std::string variant;        ///< first column of the joined CSV
-    std::string label;          ///< in the legend
+    std::string label;          ///< name in the legend
     std::filesystem::path csv;  ///< an energy.csv as a run leaves it
     std::int64_t vertices = 0;  ///< number of vertices of fabric, which the paper counts with the particles
 };

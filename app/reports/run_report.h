@@ -40,7 +40,7 @@ struct RunSummary {
     double simulatedTime = 0.0;  ///< [s]
     double wallSeconds = 0.0, peakMemoryMegabytes = 0.0;
     StageTimes times;
-    std::size_t particles = 0, cells = 0;  ///< at the end
+    std::size_t particles = 0, cells = 0;  ///< numbers of particles and cells at the end
     double particleSum = 0.0;              ///< over the steps
     std::int64_t totalIterations = 0, maxIterations = 0;
     std::size_t fabricVertices = 0, fabricElements = 0;  ///< elements: edges of yarns and faces of cloth
@@ -53,7 +53,7 @@ struct RunSummary {
     double massError = 0.0;  ///< (entered − left − there) / entered, largest over the steps [-]
     ForceNames forceNames;
     ForceTotals forces;
-    std::optional<EnergyLedger::Summary> energyLedger;  ///< where it was asked for
+    std::optional<EnergyLedger::Summary> energyLedger;  ///< summary of the ledger, where it was asked for
     std::string stateHash;
     std::string provenance;  ///< see provenanceOf()
 };
@@ -63,7 +63,7 @@ struct RunResult {
     std::string variant, label, status, reason, contentHash, stateHash;
     std::int64_t steps = 0, frames = 0, particles = 0, maxIterations = 0, fabricVertices = 0, fabricElements = 0;
     double simulatedTime = 0.0, wallSeconds = 0.0, peakMemoryMegabytes = 0.0, meanIterations = 0.0;
-    double largestCfl = 0.0, massError = 0.0;                      ///< as in RunSummary
+    double largestCfl = 0.0, massError = 0.0;                      ///< largest CFL number and error of mass, as in RunSummary
     double secondsPerStep = 0.0, meanSecondsPerStep = 0.0;         ///< the first is the median
     double meanParticles = 0.0;                                    ///< mean number of particles of liquid, over the steps
     std::array<std::optional<double>, sim::kStages> stageSeconds;  ///< medians; nothing for a stage that never ran
@@ -107,9 +107,9 @@ class Reports {
     double wallSeconds() const;
     void writeReport();
     const std::filesystem::path folder_;
-    std::optional<LineFile> steps_, energy_;    ///< those the scene's output.data asks for
+    std::optional<LineFile> steps_, energy_;    ///< logs that the scene's output.data asks for
     std::optional<EnergyLedger> energyLedger_;  ///< empty unless the scene asks for it
-    std::optional<ProbeLog> probes_;            ///< where the scene has some
+    std::optional<ProbeLog> probes_;            ///< log of the probes, where the scene has some
     RunSummary summary_;
     double begin_ = 0.0;   ///< [s]
     double before_ = 0.0;  ///< wall seconds of the run until it was gone on with

@@ -18,10 +18,10 @@ namespace app {
 
 namespace {
 
-/// Of each scene's length, where its row of the overview shows it: the liquid is amid the fabric.
+/// Share of each scene's length at which its row of the overview shows it: the liquid is amid the fabric [-].
 constexpr double kShownAt = 0.8;
 
-/// With which all intervals of a scene hold together.
+/// Confidence with which all intervals of a scene hold together.
 constexpr double kConfidence = 0.99;
 
 /// What the paper tells of its methods: how much energy they keep, and what they take.
@@ -46,7 +46,7 @@ void plot(const std::vector<PaperResult>& results, bool withFabric, const std::s
     if (!curves.empty()) plotPerParticle(curves, title, folder, name);
 }
 
-/// The same with the bands of repeats.
+/// Energies of the scenes with or without fabric as bands of their repeats, into a plot of that name.
 void plotBands(const std::vector<PaperResult>& results, bool withFabric, const std::string& title, const std::filesystem::path& folder,
                const std::string& name)
 {
@@ -108,7 +108,7 @@ std::string paperRow(const PaperResult& result, std::size_t run, const std::vect
                        cellOf(reports, "{:.0f}", [](const RunResult& r) { return r.meanParticles; }), first.fabricElements);
 }
 
-/// Only the rows of a difference that the paper makes claims about.
+/// The difference with those rows alone that the paper makes claims about.
 EnsembleDifference claimsOf(EnsembleDifference difference)
 {
     const auto isNone = [](const ColumnDifference& column) { return std::ranges::find(kClaims, column.name) == kClaims.end(); };

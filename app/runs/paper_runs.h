@@ -17,7 +17,7 @@ struct PaperScene {
     double stepCost = 1.0;           ///< what a step takes, relative to those of the other scenes
 };
 
-/// In the order of the paper's table.
+/// Scenes of the paper, in the order of its table.
 const std::vector<PaperScene>& paperScenes();
 
 /// A variant that each of them has, with the paper's parameters, at one time step.
@@ -45,7 +45,7 @@ std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const st
 /// liquid and the vertices), of liquid ones, and of elements. Of repeats it has means ± standard deviations.
 std::string paperTable(const std::vector<PaperResult>& results);
 
-/// In which of what the paper claims the methods differ, with confidence intervals (Markdown); "" without repeats.
+/// Claims of the paper in which the methods differ, with confidence intervals (Markdown); "" without repeats.
 std::string paperClaims(const std::vector<PaperResult>& results);
 
 /// table.md, energy_dam_break.png and energy_splash.png with their scripts, and with pictures sheet.png: a row per scene. With repeats plots have

@@ -102,7 +102,7 @@ bool runFrames(const LoadedScene& setup, const RunOptions& options, std::int64_t
     return true;
 }
 
-/// The same; of a run that fails in a mode that takes bad steps back, the last good state is kept.
+/// runFrames; of a run that fails in a mode that takes bad steps back, the last good state is kept.
 bool runFramesOrKeepState(const LoadedScene& setup, const RunOptions& options, std::int64_t first, SimulationHandle& simulation, Frames& kept,
                           Reports& reports)
 try {

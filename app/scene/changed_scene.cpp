@@ -43,7 +43,7 @@ void ChangedScene::requireSameFile() const
     if (load_(start_).identity != identity_) throw sim::InputError(start_.file + ": was changed since the start; restart to take it as it is now");
 }
 
-/// In the order of their steps, one for each.
+/// Puts changes in the order of their steps, one for each.
 void ChangedScene::tidy(std::vector<Change>& changes)
 {
     std::ranges::stable_sort(changes, {}, &Change::step);
@@ -120,7 +120,7 @@ bool ChangedScene::restart()
     return isOther;
 }
 
-/// With what the scene itself changes on the way.
+/// Begins with a scene, and with what it changes itself on the way.
 void ChangedScene::begin(LoadedScene setup)
 {
     setup_ = std::move(setup);

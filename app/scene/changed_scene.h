@@ -52,9 +52,9 @@ class ChangedScene {
     SceneRequest requestOf(const std::vector<std::string>& sets, const std::vector<Change>& changes) const;
 
     Load load_;
-    SceneRequest start_;                ///< with all that was set for the start
+    SceneRequest start_;                ///< request with all that was set for the start
     std::vector<Change> changes_;       ///< in order of their steps
-    std::vector<std::string> waiting_;  ///< for a restart
+    std::vector<std::string> waiting_;  ///< settings that wait for a restart
     LoadedScene setup_;                 ///< scene with all changes but those that wait
     std::string identity_;              ///< identity of the scene at the start
 };

@@ -80,7 +80,7 @@ struct OutputSettings {
     int checkpointKeep = 1;            ///< number of the last of those states that are kept; 0: all
     bool geometry = false;             ///< write geometry/ with every frame's liquid, fabric and obstacles
     GeometryFormats geometryFormats;   ///< formats of the geometry files
-    bool geometrySurface = false;      ///< with a mesh of the liquid's surface
+    bool geometrySurface = false;      ///< whether geometry has a mesh of the liquid's surface
     std::string probes;                ///< the section of what is read as a run goes, on one line; empty: none
     double videoFps = 50.0;
     std::string videoCodec = "libx264";
@@ -101,7 +101,7 @@ struct CompareSettings {
     CompareLayout layout = CompareLayout::Columns;
     bool video = true, sheet = false, energyPlot = true, table = true;
     std::string reference;  ///< label of the baseline, if any
-    Tolerance tolerance;    ///< what drench diff takes for the same
+    Tolerance tolerance;    ///< differences within which drench diff takes results for equal
 };
 
 /// What there is to draw in the scene that the settings belong to.

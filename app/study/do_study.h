@@ -10,16 +10,16 @@ namespace app {
 /// Where and how the runs of a study are done.
 struct StudyWork {
     int jobs = 1;          ///< side by side
-    bool all = false;      ///< those that are done, too
-    bool onSlurm = false;  ///< as jobs of Slurm
-    bool wait = true;      ///< for those
+    bool all = false;      ///< whether runs that are done are made again too
+    bool onSlurm = false;  ///< whether runs are jobs of Slurm
+    bool wait = true;      ///< whether to wait for the runs
 };
 
 /// How a study stands.
 struct StudyEnd {
     std::size_t left = 0;    ///< runs that did not get to their end
     bool isOver = true;      ///< nothing goes on by itself
-    bool isStopped = false;  ///< by the user
+    bool isStopped = false;  ///< whether the user stopped it
 };
 
 /// Do what is not done yet, and tell how each ends.

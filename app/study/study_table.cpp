@@ -22,13 +22,13 @@ struct Row {
     const StudyRun* run;
     StudyOutcome outcome;
     std::optional<RunResult> result;
-    std::optional<double> energy;  ///< at the end [erg]
+    std::optional<double> energy;  ///< energy at the end [erg]
 };
 
 /// What came out of a run, as the columns name it.
 struct Figure {
     const char* name;
-    const char* title;  ///< on the axis of a plot; null: no plot of it
+    const char* title;  ///< title on the axis of a plot; null: no plot of it
     std::optional<double> (*of)(const Row&);
 };
 constexpr Figure kFigures[] = {

@@ -30,7 +30,7 @@ struct ChildExit {
 struct ChildOptions {
     std::filesystem::path folder;  ///< where it runs; empty: here
     bool quiet = true;             ///< keep standard error in ChildExit and drop standard output; else both are ours
-    bool feed = false;             ///< its standard input comes from write(); else there is none
+    bool feed = false;             ///< whether its standard input comes from write(); else there is none
 };
 
 /// Another program, started with arguments as they are: no shell looks at them. It is ended when this process ends.
@@ -49,7 +49,7 @@ class ChildProcess {
     /// Close its input and wait for its end. A wish to stop (interrupt.h) is passed on to it once.
     ChildExit wait();
 
-    /// Has it ended? Passes on a wish to stop likewise.
+    /// Has it ended? A wish to stop (interrupt.h) is passed on to it once.
     std::optional<ChildExit> poll();
 
     /// End it at once; wait() and poll() still tell.
@@ -57,7 +57,7 @@ class ChildProcess {
 
  private:
     pid_t id_ = -1;
-    bool passedOn_ = false;  ///< a wish to stop
+    bool passedOn_ = false;  ///< whether a wish to stop was passed on
     int input_ = -1, errors_ = -1;
 };
 

@@ -2,7 +2,7 @@
 
 namespace app {
 
-/// From here on the first Ctrl-C (or SIGTERM) only sets a mark that the run looks at after each frame; the second one
+/// Makes the first Ctrl-C (or SIGTERM) from now on set a mark only, which the run looks at after each frame; the second one
 /// ends the program at once. Files already in place stay whole either way.
 void watchForInterrupt();
 

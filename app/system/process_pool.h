@@ -19,15 +19,15 @@ struct ProcessEnd {
 
 /// A program, run many times with different arguments, some of them side by side.
 struct ProcessPool {
-    std::filesystem::path program = "/proc/self/exe";  ///< this very one
+    std::filesystem::path program = "/proc/self/exe";  ///< program that is run; by default this very one
     std::size_t count = 0;
-    int width = 1;               ///< so many at a time
-    double limitSeconds = 60.0;  ///< for each, wall
+    int width = 1;               ///< number of runs at a time
+    double limitSeconds = 60.0;  ///< wall time allowed for each run [s]
     /// Arguments of a run, asked for right before it starts.
     std::function<std::vector<std::string>(std::size_t)> arguments = {};
     /// Called as each has ended.
     std::function<void(std::size_t, const ProcessEnd&)> ended = {};
-    /// Then no more are started.
+    /// Once it returns true no more are started.
     std::function<bool()> stopWanted = [] { return false; };
 };
 

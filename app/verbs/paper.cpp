@@ -19,8 +19,8 @@ struct PaperWork {
     const PaperScene& scene;
     Options options;  ///< what `compare` would be asked for
     std::filesystem::path folder;
-    std::vector<ComparedRun> runs;     ///< with pictures, if wanted
-    std::vector<ComparedRun> repeats;  ///< without
+    std::vector<ComparedRun> runs;     ///< runs of the variants, with pictures if wanted
+    std::vector<ComparedRun> repeats;  ///< repeats of the runs, without pictures
     bool withFrames = true;
 
     const PictureSettings& pictures() const { return runs.front().setup.pictures; }
@@ -59,7 +59,7 @@ PaperWork workOf(const PaperScene& scene, const Options& options, const Backends
     return work;
 }
 
-/// Those that got to their end, with what is made of them; nothing once somebody has asked to stop.
+/// Runs of a scene that got to their end, with what is made of them; nothing once somebody has asked to stop.
 /// @param costAfter  of the scenes that follow
 std::optional<PaperResult> runScene(const PaperWork& work, double costAfter, const Backends& backends, std::size_t& missing)
 {

@@ -79,7 +79,7 @@ int continueRun(const Options& options, const Backends& backends)
     return exitCodeOf(runToItsEnd(resumed.setup, run, options, backends));
 }
 
-/// Beside the report, where the results of its run are, unless --out says so.
+/// Repeats the run of a report, into a folder beside it unless --out says another.
 int runAgain(const Options& options, const Backends& backends)
 {
     const RunToRepeat repeated = readRunToRepeat(options.again);

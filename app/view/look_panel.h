@@ -28,7 +28,7 @@ class LookPanel {
 
  private:
     using Range = std::array<float, 2>;
-    using FabricRanges = std::array<Range, 4>;  ///< by FabricColorBy
+    using FabricRanges = std::array<Range, 4>;  ///< ranges of values, by FabricColorBy
 
     void drawVisibility();
     void drawMarks();
@@ -39,7 +39,7 @@ class LookPanel {
 
     const SceneContents contents_;
     LiquidStyle liquidStyle_;
-    render::Look look_;  ///< but for what depends on the values of a snapshot
+    render::Look look_;  ///< look, but for what depends on the values of a snapshot
     SnapshotExtras wanted_;
     std::array<Range, 2> liquidRanges_;  ///< ranges of speeds and of pressures
     FabricRanges yarnRanges_, clothRanges_;

@@ -25,7 +25,7 @@ class ParameterPanel {
     void drawText(LiveSimulation& live, const sim::Parameter& parameter);
 
     std::array<char, 64> wanted_{};  ///< show only settings with this in their names
-    std::string entered_;            ///< in the field that is being edited
+    std::string entered_;            ///< text in the field that is being edited
     std::map<std::string, std::array<float, 2>> places_;
 };
 

@@ -13,7 +13,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kMostReadings = 2000;  ///< of a plot: older ones are forgotten
+constexpr std::size_t kMostReadings = 2000;  ///< readings of a plot: older ones are forgotten
 constexpr float kWidth = 18.0f;              ///< [font sizes]
 constexpr float kPlotHeight = 2.6f;          ///< [lines of text]
 
@@ -47,7 +47,7 @@ void ProbePanel::Course::add(const ProbeTitle& title, double time, std::span<con
     times.push_back(time);
 }
 
-/// Of a line the values are those of one time: all hold, or none.
+/// Drops readings after a time. Values along a line are all of one time: all hold, or none.
 void ProbePanel::Course::dropAfter(double time)
 {
     if (latestTime <= time) return;

@@ -10,7 +10,7 @@ namespace app {
 
 /// What the user wants done with the scene as a whole.
 struct SceneCommands {
-    bool save = false;                       ///< as YAML
+    bool save = false;                       ///< whether the scene is to be saved, as YAML
     bool copyCommand = false;                ///< into the clipboard
     bool picture = false;                    ///< into a PNG
     std::optional<bool> record = {};         ///< every frame into a PNG, from now on or no longer

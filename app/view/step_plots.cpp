@@ -13,7 +13,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 2000;  ///< of a plot: older steps are forgotten
+constexpr std::size_t kMostPoints = 2000;  ///< points of a plot: older steps are forgotten
 
 void addTo(std::vector<float>& values, double value)
 {
@@ -24,7 +24,7 @@ void addTo(std::vector<float>& values, double value)
 /// A quantity of every step.
 struct Course {
     const char *name, *unit, *help;
-    int digits = 4;  ///< of its values
+    int digits = 4;  ///< digits of the plot's values
 };
 
 /// The course over the width of the panel, with its name and last value written into it.
@@ -39,7 +39,7 @@ void plot(const Course& course, const std::vector<float>& values)
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s%s%s%s", course.help, *course.unit ? " [" : "", course.unit, *course.unit ? "]" : "");
 }
 
-/// Of the liquid that came in, what is in no particle, in no fabric, and has not left, negative where it is missing [-].
+/// Share of the liquid that came in which is in no particle, in no fabric, and has not left, negative where it is missing [-].
 double massError(const LiveStep& step)
 {
     const sim::Ledger& ledger = step.ledger;
@@ -76,7 +76,7 @@ void StepPlots::draw() const
     drawStages();
 }
 
-/// Only those that ran.
+/// Draws the times of the stages that ran.
 void StepPlots::drawStages() const
 {
     const sim::StepReport& report = last_.report;

@@ -17,7 +17,7 @@ namespace app {
 
 namespace {
 
-constexpr double kLongestWait = 0.1;  ///< for a picture of full quality while something changes [s]
+constexpr double kLongestWait = 0.1;  ///< longest wait for a picture of full quality while something changes [s]
 
 std::string labelOf(const LoadedScene& setup) { return setup.label.empty() ? "as written" : setup.label; }
 

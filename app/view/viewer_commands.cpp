@@ -87,7 +87,7 @@ void Viewer::Inner::writeTo(const std::filesystem::path& file)
     }
 }
 
-/// Of the scenes alone: before the panels are drawn over them.
+/// Writes pictures of the scenes alone, before the panels are drawn over them.
 void Viewer::Inner::writePictures()
 {
     if (!isShowing()) return;

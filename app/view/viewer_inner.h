@@ -47,9 +47,9 @@ struct Viewer::Inner {
     std::optional<LookPanel> lookPanel;
     ScenePanel scenePanel;
     RecentFiles recent;
-    bool isFirstUse = false;                            ///< until it is seen that the user knows what to do
+    bool isFirstUse = false;                            ///< whether it is not seen yet that the user knows what to do
     std::size_t tuned = 0;                              ///< the side whose settings are shown
-    std::optional<ViewCamera> camera;                   ///< once there is something to look at
+    std::optional<ViewCamera> camera;                   ///< camera, once there is something to look at
     std::filesystem::path screenshotFile, pictureFile;  ///< files of the next frame, with and without panels; or empty
     std::filesystem::path recordFolder;                 ///< folder of recorded frames
     std::int64_t recorded = -1;                         ///< number of the last one

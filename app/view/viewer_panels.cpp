@@ -10,18 +10,18 @@ namespace app {
 
 namespace {
 
-constexpr float kPanelWidth = 24.0f;  ///< of the column with the panels [font sizes]
+constexpr float kPanelWidth = 24.0f;  ///< width of the column with the panels [font sizes]
 
 }  // namespace
 
-/// That two scenes leave to the panels [pixels]; one is drawn behind them.
+/// Width that two scenes leave to the panels [pixels]; one is drawn behind them.
 int Viewer::Inner::widthOfPanels() const
 {
     const int width = static_cast<int>(kPanelWidth * ImGui::GetFontSize());
     return pair->sides().size() > 1 && window.width() > 2 * width ? width : 0;
 }
 
-/// To those who have looked at no scene before.
+/// Draws a hint to those who have looked at no scene before.
 void Viewer::Inner::drawFirstHint() const
 {
     if (!isFirstUse) return;

@@ -88,7 +88,7 @@ void Window::showKey(int key, bool isDown)
     if (key >= 0 && key < IM_ARRAYSIZE(ImGui::GetIO().KeysDown)) ImGui::GetIO().KeysDown[key] = isDown;
 }
 
-/// As large as the monitor's owner wants everything to be.
+/// Makes panels as large as the monitor's owner wants everything to be.
 void Window::scalePanels()
 {
     float scale = 1.0f, across = 1.0f;

@@ -49,7 +49,7 @@ class Window {
         std::vector<Key> keys;
         std::vector<std::string> files;
     };
-    Events events_;  ///< since the last frame
+    Events events_;  ///< events since the last frame
     int width_ = 0, height_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 /// Distances (LiquidAround::Found) up to which fabric takes up liquid at its rate, and from which on none [cells]. Of those tried from 0.63 to 1 the
 /// pair by which a drop loses the same to cloth at cells of 0.35 to 0.125 (MeshIndependence.UptakeOfCloth).
 constexpr double kFullUptake = 0.73, kNoUptake = 0.9;
-constexpr double kLeastShare = 1.0e-3;  ///< of the nominal mass, below which a particle gives all it has (coupling/README.md, Uptake) [-]
+constexpr double kLeastShare = 1.0e-3;  ///< share of the nominal mass below which a particle gives all it has (coupling/README.md, Uptake) [-]
 
 }  // namespace
 

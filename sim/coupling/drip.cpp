@@ -14,8 +14,8 @@ namespace sim {
 namespace {
 
 constexpr std::uint64_t kSeed = 0x44726970;  // "Drip"
-constexpr double kJitter = 0.5;              ///< of the way to a corner of an element of the pool [-]
-constexpr double kLeastDrop = 1.0e-3;        ///< of the nominal mass: less stays, as it would all but vanish [-]
+constexpr double kJitter = 0.5;              ///< share of the way to a corner of an element of the pool, by which a drop is off the middle [-]
+constexpr double kLeastDrop = 1.0e-3;        ///< least drop, relative to the nominal mass: less stays, as it would all but vanish [-]
 
 }  // namespace
 
@@ -38,7 +38,7 @@ void Drip::findPools(const FabricState& fabric)
     std::ranges::sort(wet_, [&](const Wet& a, const Wet& b) { return key(a) < key(b); });
 }
 
-/// From the middle of a pool towards a random corner of the elements at it [cm].
+/// Displacement from the middle of a pool towards a random corner of the elements at it [cm].
 Vec3 Drip::jitter(std::span<const Wet> pool, const Vec3& middle, std::uint64_t number, const State& state) const
 {
     const CounterRandom random(kSeed, static_cast<std::uint64_t>(pool[0].vertex), static_cast<std::uint64_t>(state.step));

@@ -194,7 +194,7 @@ void FabricOnFaces::averageOverMass(const std::vector<double>& ofVertex, bool is
     parallelFor(grid().count(), 8, [&](std::size_t b) { std::fill_n(mean.block(static_cast<int>(b)), BlockArray<double, 3>::kStride, ofVertex[0]); });
 }
 
-/// Of fibres and of what is absorbed, without a pass over the vertices where masses tell: in dry fabric, and where all is of one density.
+/// Volumes of fibres and of what is absorbed, without a pass over vertices where masses tell: in dry fabric, and where all is of one density.
 void FabricOnFaces::findVolumes(const FabricState& state)
 {
     const std::size_t n = vertices_->count();

@@ -25,20 +25,20 @@ class FabricOnFaces {
     /// Takes the velocity as a solver has it on faces.
     void takeVelocity(const FabricFaces& faces);
 
-    const BlockGrid& grid() const { return vertices_->grid; }      ///< of the vertices that were spread
-    double massOf(int vertex) const { return massOf_[vertex]; }    ///< with what it has absorbed [g]
-    double solidOf(int vertex) const { return solidOf_[vertex]; }  ///< volume of its fibres and of that [cm^3]
+    const BlockGrid& grid() const { return vertices_->grid; }      ///< grid of the vertices that were spread
+    double massOf(int vertex) const { return massOf_[vertex]; }    ///< mass with what the vertex has absorbed [g]
+    double solidOf(int vertex) const { return solidOf_[vertex]; }  ///< volume of the vertex' fibres and of what it has absorbed [cm^3]
 
     // Of each face; of its own component where there are several.
-    BlockArray<double, 3> mass;          ///< with what has been absorbed [g]
+    BlockArray<double, 3> mass;          ///< mass with what has been absorbed [g]
     BlockArray<double, 3> velocity;      ///< [cm/s]
     BlockArray<double, 3> fibres;        ///< volume of the fibres [cm^3]
     BlockArray<double, 3> envelope;      ///< volume of fibres and pores, as the fabric is stretched now [cm^3]; where it is asked for
-    BlockArray<double, 3> touched;       ///< that of the fabric that liquid touches [cm^3]; likewise
-    BlockArray<double, 3> solid;         ///< volume of them and of what has been absorbed [cm^3]
-    BlockArray<double, 3> shape;         ///< 1 = yarns, 0 = cloth, or between
-    BlockArray<double, 3> diameter;      ///< of yarns [cm]; with envelopes, where there are yarns
-    BlockArray<double, 3> constriction;  ///< of the flow between them (narrowings) [-]; likewise
+    BlockArray<double, 3> touched;       ///< envelope of the fabric that liquid touches [cm^3]; where it is asked for
+    BlockArray<double, 3> solid;         ///< volume of the fibres and of what has been absorbed [cm^3]
+    BlockArray<double, 3> shape;         ///< shape of the fabric: 1 = yarns, 0 = cloth, or between
+    BlockArray<double, 3> diameter;      ///< diameter of yarns [cm]; with envelopes, where there are yarns
+    BlockArray<double, 3> constriction;  ///< constriction of the flow between yarns [-]; with envelopes, where there are yarns
     BlockArray<double, 3> held;          ///< part of the mass that pins and the fabric's own forces hold against loads [0..1]
     BlockArray<double, 3> squares;       ///< o_a² of the direction o: tangent of yarns, normal of cloth
 
@@ -61,16 +61,16 @@ class FabricOnFaces {
     double liquidDensity_;                ///< [g/cm^3]
     SortedVertices* vertices_ = nullptr;  ///< vertices that were spread last
     bool hasYarns_ = false;
-    std::vector<double> diameterOf_, constrictionOf_;  ///< of each vertex [cm, -]
-    std::vector<double> fibresOf_, shapeOf_;           ///< of each vertex [cm^3, -]
-    std::vector<double> restLength_, restArea_;        ///< of the edges and faces at each vertex, summed [cm, cm^2]
-    std::vector<double> envelopeOf_;                   ///< of each vertex, of the step [cm^3]
-    std::optional<double> fibresPerMass_;              ///< of the dry fabric, where all vertices have the same [cm^3/g]
-    bool isOneShape_ = false;                          ///< all yarns, or all cloth
+    std::vector<double> diameterOf_, constrictionOf_;  ///< diameter and constriction of each vertex [cm, -]
+    std::vector<double> fibresOf_, shapeOf_;           ///< volume of the fibres and shape of each vertex [cm^3, -]
+    std::vector<double> restLength_, restArea_;        ///< length of the edges and area of the faces at each vertex at rest, summed [cm, cm^2]
+    std::vector<double> envelopeOf_;                   ///< envelope of each vertex in the step [cm^3]
+    std::optional<double> fibresPerMass_;              ///< volume of fibres per mass of dry fabric, where it is one for all vertices [cm^3/g]
+    bool isOneShape_ = false;                          ///< whether all is yarns, or all is cloth
     bool isOneDiameter_ = false, isOneNarrowing_ = false;
-    std::vector<double> massOf_, solidOf_;   ///< of each vertex, of the step [g, cm^3]
-    std::vector<Vec3> squaresOf_;            ///< of each vertex
-    std::vector<int> edgesBegin_, edgesAt_;  ///< of each vertex: yarn edges that end there
+    std::vector<double> massOf_, solidOf_;   ///< massOf and solidOf of each vertex in the step [g, cm^3]
+    std::vector<Vec3> squaresOf_;            ///< squares of the direction's components for each vertex
+    std::vector<int> edgesBegin_, edgesAt_;  ///< yarn edges that end at each vertex
     std::vector<int> facesBegin_, facesAt_;
 
     FaceFields sums_;

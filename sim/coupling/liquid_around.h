@@ -58,7 +58,7 @@ class LiquidAround {
     std::vector<int> solidBlock_;                  ///< block of the liquid's grid where there are solids near, or BlockGrid::kNone
     std::vector<double> mass_, distance_;          ///< Found::massAt and distanceAt of each vertex, known of sorted ones [g, cells]
     std::vector<std::array<int, 27>> nearBlocks_;  ///< blocks of vertices around each block of the liquid
-    std::vector<Part> near_;                       ///< in the order of the blocks
+    std::vector<Part> near_;                       ///< parts of the liquid near vertices, in the order of the blocks
     std::vector<int> nearBegin_;                   ///< first part of each block of the liquid; it has none if the next block's is the same
     AlignedArray<double> tiles_;                   ///< what each part's particles bring to the cells of a tile
 };

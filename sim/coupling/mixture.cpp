@@ -99,7 +99,7 @@ void Mixture::addSuction(const CutGrid& cut, const FabricState& state, const Liq
     });
 }
 
-/// … and is drawn by it.
+/// Suction draws the fabric to the liquid by as much.
 void Mixture::applyReaction()
 {
     suction_.applyReaction(*vertices_, scratch_, reactionOf_);
@@ -267,7 +267,7 @@ void Mixture::recoverLiquidVelocities(LiquidGrid& liquid) const
     });
 }
 
-/// By the fabric's velocity at the end of the step.
+/// Impulse that a shared face's liquid gave, by the fabric's velocity at the end of the step [g cm/s].
 double Mixture::impulseTaken(int block, int axis, int cell) const
 {
     const double mass = liquidMass_.block(block, axis)[cell], drag = drag_.block(block, axis)[cell];

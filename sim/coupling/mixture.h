@@ -141,27 +141,27 @@ class Mixture {
     double liquidDensity_;  ///< [g/cm^3]
     CouplingSettings settings_;
     Suction suction_;
-    double dt_ = 0.0;                     ///< of the step under way [s]
+    double dt_ = 0.0;                     ///< length of the step under way [s]
     SortedVertices* vertices_ = nullptr;  ///< vertices of the step under way
     FabricOnFaces onFaces_;
-    std::vector<int> liquidBlock_;  ///< of each block of the fabric's grid; BlockGrid::kNone where there is no liquid
+    std::vector<int> liquidBlock_;  ///< block of the liquid's grid for each of the fabric's grid; BlockGrid::kNone where there is no liquid
 
     // Of each face of the fabric's grid; liquidMass_ is 0 where it is not shared.
     Faces liquidMass_;              ///< [g]
     Faces relative_;                ///< velocity of the liquid past the fabric [cm/s]
-    Faces liquidVolume_;            ///< on which pressure pushes the liquid [cm^3]
+    Faces liquidVolume_;            ///< volume on which pressure pushes the liquid [cm^3]
     Faces drag_;                    ///< D = dt c V, with the volume V that drag acts on (dragOn) [g]
-    Faces predicted_;               ///< u_f*: of the liquid before drag and pressure [cm/s]
-    Faces pressed_;                 ///< ũ_f: of the liquid after the pressure, without drag [cm/s]
-    Faces mixed_, mobility_;        ///< of the mixture before the pressure [cm/s]; β [cm^3/g]
-    Faces suctionImpulse_;          ///< of suction on the liquid [g cm/s]
-    Faces reaction_;                ///< of suction on the fabric, of all its faces [g cm/s]
-    std::vector<Vec3> reactionOf_;  ///< of suction on each vertex [g cm/s]
+    Faces predicted_;               ///< u_f*: velocity of the liquid before drag and pressure [cm/s]
+    Faces pressed_;                 ///< ũ_f: velocity of the liquid after the pressure, without drag [cm/s]
+    Faces mixed_, mobility_;        ///< velocity of the mixture before the pressure [cm/s]; β [cm^3/g]
+    Faces suctionImpulse_;          ///< impulse of suction on the liquid [g cm/s]
+    Faces reaction_;                ///< impulse of suction on all faces of the fabric [g cm/s]
+    std::vector<Vec3> reactionOf_;  ///< impulse of suction on each vertex [g cm/s]
     Faces onFabric_;                ///< D', of which the fabric feels D' (ũ_f − u_s) [g]
     Faces dragImpulse_;             ///< what drag gives the fabric before its own speed counts: D' ũ_f [g cm/s]
-    Faces pressureImpulse_;         ///< of the pressure, per volume: dt ∇p [g/(cm^2 s)]
-    Faces faceImpulse_;             ///< of drag, pressure and reaction on the fabric's faces [g cm/s]
-    Faces scratch_;                 ///< of one function at a time
+    Faces pressureImpulse_;         ///< impulse of the pressure per volume, dt ∇p [g/(cm^2 s)]
+    Faces faceImpulse_;             ///< impulse of drag, pressure and reaction on the fabric's faces [g cm/s]
+    Faces scratch_;                 ///< buffer of one function at a time
     LiquidLoads loads_;
 };
 

@@ -11,7 +11,7 @@ namespace sim {
 namespace {
 
 constexpr double kDensest = 0.9;     ///< part of its envelope that fibres of squeezed fabric fill at most [-]
-constexpr double kLeastOpen = 0.05;  ///< of a face: what fabric leaves for liquid that flows past it [-]
+constexpr double kLeastOpen = 0.05;  ///< share of a face that fabric leaves at least for liquid that flows past it [-]
 
 }  // namespace
 

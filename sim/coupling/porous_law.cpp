@@ -10,9 +10,9 @@ namespace {
 constexpr double kSeriesEnd = 0.4;              ///< fraction up to which the series for flow across holds [-]
 constexpr double kLeastPermeability = 1.0e-20;  ///< [cm^2]
 constexpr double kErgun = 0.14288690166235205;  ///< 1.75 / √150 (coupling/README.md, Drag) [-]
-constexpr double kMostDrag = 1.0e63;            ///< where permeability all but vanishes [g/(cm^3 s)]
+constexpr double kMostDrag = 1.0e63;            ///< most drag, where permeability all but vanishes [g/(cm^3 s)]
 
-/// In squares of the fibre diameter.
+/// Permeability along fibres that fill the fraction f, in squares of the fibre diameter.
 double permeabilityAlong(double f) { return (-std::log(f) - 1.476 + 2.0 * f - 0.5 * f * f) / (16.0 * f); }
 double seriesAcross(double f) { return (-std::log(f) - 1.476 + 2.0 * f - 1.774 * f * f + 4.078 * f * f * f) / (32.0 * f); }
 

@@ -13,9 +13,9 @@ namespace sim {
 
 namespace {
 
-constexpr double kStable = 0.4;  ///< of h²/(2D): explicit steps are safe (coupling/README.md, Wicking) [-]
+constexpr double kStable = 0.4;  ///< safe length of an explicit step, relative to h²/(2D) (coupling/README.md, Wicking) [-]
 
-/// At rest: the length of an edge, or the least height of a face [cm].
+/// Length of an edge, or least height of a face, at rest [cm].
 double leastExtent(const Fabric& fabric, const std::array<int, 3>& v)
 {
     const auto x = [&](int c) { return fabric.rest[v[c]]; };
@@ -28,7 +28,7 @@ double leastExtent(const Fabric& fabric, const std::array<int, 3>& v)
 struct ShapeGradients {
     std::array<Vec3, 3> of;  ///< gradients of the corners' hat functions [1/cm]
     double size = 0.0;       ///< length or area [cm, cm^2]
-    Vec3 direction;          ///< of an edge, or normal to a face
+    Vec3 direction;          ///< direction of an edge, or normal to a face
     bool isEdge = false;
     /// The part of a vector that lies in the element.
     Vec3 within(const Vec3& u) const { return isEdge ? Vec3(direction * direction.dot(u)) : Vec3(u - direction * direction.dot(u)); }
@@ -110,7 +110,7 @@ void Wicking::findActive(const FabricState& state)
     });
 }
 
-/// Of the liquid around a point, 0 where there is none [dyn/cm^2].
+/// Pressure of the liquid around a point, 0 where there is none [dyn/cm^2].
 double Wicking::pressureAt(const Vec3& x, const BlockGrid& grid, const BlockArray<double>& pressure) const
 {
     if (!settings_.pressure || grid.count() == 0) return 0.0;
@@ -160,7 +160,7 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
     });
 }
 
-/// Of what flows out of a corner [g/cm^3]: that of the element, so that its speed depends on no direction of the mesh, but no more than there is.
+/// Filling of what flows out of a corner [g/cm^3]: the element's, so that speeds depend on no direction of the mesh, but no more than there is.
 double Wicking::fillingOf(std::size_t e, int v, const FabricState& state) const
 {
     return std::min(filling_[e], state.absorbed[v] / fabric_.volume[v]);

@@ -10,8 +10,8 @@ namespace sim {
 namespace {
 
 constexpr double kCreeping = 0.1;     ///< Reynolds number below which drag is linear [-]
-constexpr double kReach = 4.0;        ///< of a yarn's view of its neighbours [diameters]
-constexpr double kMostCovered = 0.9;  ///< of a view: yarns that touch still let liquid through where they cross [-]
+constexpr double kReach = 4.0;        ///< reach of a yarn's view of its neighbours [diameters]
+constexpr double kMostCovered = 0.9;  ///< share of a view that can be covered: yarns that touch still let liquid through where they cross [-]
 
 /// Length of the part of a segment that lies in a ball [cm].
 double lengthIn(const Vec3& a, const Vec3& b, const Vec3& center, double radius)

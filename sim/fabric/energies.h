@@ -23,7 +23,7 @@ class ElasticEnergies {
     FabricEnergies energies_;
 };
 
-/// With kinetic and potential energy and that of contact; what pins hold is not among them.
+/// Energies of the fabric: elastic, kinetic, potential and of contact; what pins hold is not among them.
 FabricEnergies fabricEnergies(const Fabric& fabric, const FabricState& state, const FabricEnergies& elastic, const Vec3& gravity);
 
 /// Gradient of the elastic and viscous energy by positions [dyn] and twist angles [dyn cm].

@@ -70,9 +70,9 @@ struct Fabric {
 
 /// What contact holds and gives back when it ends [erg].
 struct ContactEnergy {
-    double pressed = 0.0;  ///< where fabric presses on itself
-    double gripped = 0.0;  ///< by friction of fabric on fabric that has not slid; solver vertex only
-    double solids = 0.0;   ///< where fabric presses on solids and holds on to them
+    double pressed = 0.0;  ///< energy where fabric presses on itself
+    double gripped = 0.0;  ///< energy held by friction of fabric on fabric that has not slid; solver vertex only
+    double solids = 0.0;   ///< energy where fabric presses on solids and holds on to them
     double bridges = 0.0;  ///< part of `pressed` and `solids` in liquid bridges, below 0 by what breaking them takes
 
     double sum() const { return pressed + gripped + solids; }
@@ -104,9 +104,9 @@ struct FabricState {
         double lastFraction = 1.0;  ///< fraction of the moves that Newton asked for, taken in the last attempt at a step [-]
         FrictionForces onFabric;    ///< friction between primitives, as contact/primitives.h counts them
         // Of integrator second_order only; empty before its first step.
-        std::vector<Vec3> force;                 ///< the fabric's own on each vertex at the end of the last step, but for impulses [dyn]
-        std::vector<Vec3> meanForce;             ///< recursive mean of those of the steps so far (bossak.h) [dyn]
-        std::vector<Vec3> meanContactForce;      ///< the part of it by all that touches the vertex [dyn]
+        std::vector<Vec3> force;                 ///< the fabric's own force on each vertex at the end of the last step, but for impulses [dyn]
+        std::vector<Vec3> meanForce;             ///< recursive mean of the force on each vertex over the steps so far (bossak.h) [dyn]
+        std::vector<Vec3> meanContactForce;      ///< part of meanForce by all that touches the vertex [dyn]
         std::vector<double> torque, meanTorque;  ///< torque on each yarn edge's twist at the last step's end, and its recursive mean [dyn cm]
         double lastStep = 0.0;                   ///< length of the last step or part of one [s]
         double recoverable = 0.0;                ///< energy that its last steps took, half forgotten in each, and may yet give back [erg]
@@ -115,7 +115,7 @@ struct FabricState {
     struct GridSolverPart {
         std::vector<Vec3> across;          ///< material directions across the elements: d2, d3 of each yarn edge, then d3 of each face [-]
         std::vector<double> modes;         ///< mode r of component a of vertex v at (a · rows + r) · vertices + v, as in Particles [cm/s]
-        double sinceGather = 0.0;          ///< for how long the vertices have moved since their modes were gathered [s]
+        double sinceGather = 0.0;          ///< time that the vertices have moved since their modes were gathered [s]
         BlockGrid faceBlocks;              ///< blocks of the grid in the last step
         BlockArray<double, 3> faceChange;  ///< change of the velocities of its faces by forces on the fabric [cm/s]
     };

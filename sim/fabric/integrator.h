@@ -42,21 +42,21 @@ class FabricIntegrator {
     /// after advance() those at the end of the step.
     virtual std::optional<FabricFaces> faces() const { return std::nullopt; }
 
-    /// Not by two threads at once: implementations may remember the state that they were asked for last.
+    /// Energies of a state, for one thread at a time: implementations may remember the state that they were asked for last.
     virtual FabricEnergies energies(const FabricState& state, const Vec3& gravity) const = 0;
     /// Deepest reach of the fabric into an obstacle at the end of the last step [cm].
     virtual double deepestInObstacles(const FabricState&) const { return -std::numeric_limits<double>::infinity(); }
     /// Pairs of fabric that acted in the last step; null before the first, where none were near, and where contact is not by pairs.
     virtual const ActiveContacts* contacts() const { return nullptr; }
 
-    /// From now on reports tell where energy goes, which takes about as long as an iteration of a solve.
+    /// Makes reports tell from now on where energy goes, which takes about as long as an iteration of a solve.
     void bookEnergy() { booksEnergy_ = true; }
-    /// From now on steps add to `forces` what acts between the fabric and solids, pins and liquid.
+    /// Makes steps from now on add to `forces` what acts between the fabric and solids, pins and liquid.
     void reportForces(Forces& forces) { forces_ = &forces; }
 
  protected:
     bool booksEnergy_ = false;
-    Forces* forces_ = nullptr;  ///< where they are wanted
+    Forces* forces_ = nullptr;  ///< forces that steps add to; null where nobody wants them
 };
 
 }  // namespace sim

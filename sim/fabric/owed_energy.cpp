@@ -13,8 +13,8 @@ namespace sim {
 
 namespace {
 
-constexpr double kStretched = 1.1;  ///< to this times its length and more: worth telling [-]
-constexpr double kMostOwed = 0.01;  ///< with which a run may go on, of the largest kinetic energy: what its energies are held to [-]
+constexpr double kStretched = 1.1;  ///< stretch from which on it is worth telling [-]
+constexpr double kMostOwed = 0.01;  ///< debt with which a run may go on, relative to the largest kinetic energy: what its energies are held to [-]
 
 }  // namespace
 

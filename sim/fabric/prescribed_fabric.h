@@ -25,7 +25,7 @@ class PrescribedFabric final : public FabricIntegrator {
     Vec3 reaction(double h, const Vec3& gravity, const FabricState& state, const LiquidLoads* loads, std::size_t v) const;
 
     const Fabric& fabric_;
-    Rods rods_;                        ///< for the frames of yarns that are moved
+    Rods rods_;                        ///< rods, for the frames of yarns that are moved
     std::vector<Vec3> restReference_;  ///< reference direction of each yarn edge at rest
     std::vector<Vec3> before_;         ///< velocity of each vertex when the step began [cm/s]
 };

@@ -33,8 +33,8 @@ class ClosedAreas {
     const Obstacles& obstacles_;
     Vec3 corner_;
     int count_ = 0;                                      ///< solids near, kMost at most
-    std::array<int, kMost> solid_{};                     ///< their numbers
-    std::array<std::optional<OpenFaces>, kMost> faces_;  ///< as if each were alone
+    std::array<int, kMost> solid_{};                     ///< numbers of the solids
+    std::array<std::optional<OpenFaces>, kMost> faces_;  ///< open parts of the faces as if each solid were alone
 };
 
 }  // namespace sim

@@ -23,7 +23,7 @@ class ObstacleField {
     /// @param mirrors   plane walls in planes of faces mirror the liquid (mirrorAtWalls): what is behind them counts as room
     void update(const BlockGrid& grid, std::span<const int> previous, const Obstacles& obstacles, bool mirrors);
 
-    /// As told by the last update: nothing of the liquid is left on the faces behind plane walls then.
+    /// Whether walls mirror, as the last update was told: nothing of the liquid is left on the faces behind plane walls then.
     bool mirrors() const { return mirrors_; }
 
     bool nearSolid(int block) const { return slot_[block] != kOpenSlot; }

@@ -110,7 +110,7 @@ Vec3 Obstacles::normal(const Vec3& x) const
     return body == nullptr ? Vec3::Zero() : Vec3(body->now.linear() * body->shape.normal(body->toShape * x));
 }
 
-constexpr double kLeastStride = 1.0e-4;   ///< of a search along a path, whose length stays finite in steps that fail [lengths of the path]
+constexpr double kLeastStride = 1.0e-4;   ///< least stride along a path, whose length stays finite in steps that fail [lengths of the path]
 constexpr double kBarelyInside = 1.0e-3;  ///< as little in a solid is on its surface [resolutions]
 
 /// start(body): where the path starts, in the space of the body's shape.

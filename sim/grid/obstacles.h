@@ -24,16 +24,16 @@ class Obstacles {
     bool empty() const { return bodies_.empty(); }
     int count() const { return static_cast<int>(bodies_.size()); }
     double steepest() const { return steepest_; }        ///< distances change by no more than this times the way [-]
-    bool anyMoving() const { return anyMoving_; }        ///< in the step of the last call of those
-    bool anyDisplaced() const { return anyDisplaced_; }  ///< in that step or in the one before it
+    bool anyMoving() const { return anyMoving_; }        ///< whether any moves in the step of the last startAt or moveTo
+    bool anyDisplaced() const { return anyDisplaced_; }  ///< whether any moves in that step or in the one before it
 
-    double distance(const Vec3& x) const;  ///< to the nearest solid [cm], negative inside; infinite without any
+    double distance(const Vec3& x) const;  ///< distance to the nearest solid [cm], negative inside; infinite without any
     enum class Which { All, Displaced };
     /// Does a solid come nearer than `within` to some place of the cube around x [cm]? Rather yes than no: as if it were a ball, and for meshes
     /// a little more.
     bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
     int nearest(const Vec3& x) const;    ///< number of the nearest solid, in the order of add; there must be one
-    Vec3 normal(const Vec3& x) const;    ///< out of the nearest solid
+    Vec3 normal(const Vec3& x) const;    ///< unit normal out of the nearest solid [-]
     Vec3 velocity(const Vec3& x) const;  ///< velocity of the nearest solid's material point at x [cm/s]
 
     // Queries of one solid.
@@ -62,7 +62,7 @@ class Obstacles {
             Vec3 to;
             double share;
         };
-        Vec3 start_;  ///< at the start of the step [cm]
+        Vec3 start_;  ///< place of the particle at the start of the step [cm]
         std::array<Segment, kMaxSegments> segments_;
         int count_ = 0;
     };
@@ -93,9 +93,9 @@ class Obstacles {
         Shape shape;
         Motion motion;
         Eigen::Isometry3d now, toShape;
-        Eigen::Isometry3d other;  ///< at the other end of the step
-        bool moving = false;      ///< in this step
-        bool displaced = false;   ///< in this step or the one before
+        Eigen::Isometry3d other;  ///< place of the body at the other end of the step
+        bool moving = false;      ///< whether it moves in this step
+        bool displaced = false;   ///< whether it moves in this step or the one before
     };
     const Body* nearestBody(const Vec3& x) const;
     Vec3 velocityOf(const Body& body, const Vec3& x) const;
@@ -111,7 +111,7 @@ class Obstacles {
     bool anyMoving_ = false, anyDisplaced_ = false;
     double started_ = std::numeric_limits<double>::infinity();  ///< start of the last step [s]
     double startedBefore_ = 0.0;                                ///< start of the step before it [s]
-    double interval_ = 0.0;                                     ///< from the other end of the step until now [s]
+    double interval_ = 0.0;                                     ///< time from the other end of the step until now [s]
 };
 
 /// Number of the plane of faces that a wall stands in, counted from cell 0; nothing if it stands between two.

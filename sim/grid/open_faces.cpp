@@ -13,7 +13,7 @@ constexpr double kAlmostClosed = 1.0e-3;  ///< open fractions below only hurt th
 constexpr double kAlmostOpen = 1.0 - 1.0e-6;
 constexpr double kPlane =
     1.0e-3;  ///< a part in whose middles distances differ less from the means of its corners has one plane surface [lengths of its edge]
-constexpr int kHalvings = 3;  ///< of a face that has not: what is missed of a corner is less than its smallest part
+constexpr int kHalvings = 3;  ///< halvings of a face that has no plane surface: what is missed of a corner is less than its smallest part
 
 }  // namespace
 

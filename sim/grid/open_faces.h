@@ -37,7 +37,7 @@ class OpenFaces {
     const Obstacles& obstacles_;
     int solid_;
     Vec3 corner_;
-    std::array<double, kEdge * kEdge * kEdge> distance_;  ///< to the nearest of those that count, at the 9³ nodes [cm]
+    std::array<double, kEdge * kEdge * kEdge> distance_;  ///< distance to the nearest of the solids that count, at the 9³ nodes [cm]
 };
 
 }  // namespace sim

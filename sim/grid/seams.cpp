@@ -6,7 +6,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kBeyond = 0.01;  ///< of the reach: as far behind a surface it is looked whether there is more solid
+constexpr double kBeyond = 0.01;  ///< distance behind a surface at which more solid is looked for, relative to the reach [-]
 
 /// The nearest place so far, and what may lead to a nearer one.
 struct Search {
@@ -15,7 +15,7 @@ struct Search {
     double reach;
     std::optional<Vec3> best;
 
-    /// From a place outside to the surface below it, and along the normal there.
+    /// Looks from a place outside to the surface below it, and along the normal there.
     void look(Vec3 outside)
     {
         constexpr int kMoves = 3;

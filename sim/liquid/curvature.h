@@ -50,7 +50,7 @@ class Curvature {
     BlockBits<> known_, fresh_;                   ///< scratch
     BlockBits<> surface_;                         ///< liquid cells beside air
     BlockBits<> beside_;                          ///< cells whose curvature is asked for, and their neighbours
-    BlockBits<> around_;                          ///< and their neighbours: cells whose normal is
+    BlockBits<> around_;                          ///< cells whose normal is asked for: those of beside_ and their neighbours
     BlockArray<double> colour_, other_, smooth_;  ///< [-]
     BlockArray<double, 3> normal_;                ///< out of the liquid [-]
     BlockArray<double> curvature_;                ///< [1/cell]

@@ -22,7 +22,7 @@ struct LiquidEnergies {
     double potential = 0.0;  ///< −m g·x
     double strain = 0.0;     ///< energy of stretching, where the pressure takes it for no inertia (storeStrain); not in the total
     double total() const { return kinetic + modal + potential; }
-    /// With a surface of second order stretching is a store beside the total: the pressure neither counts nor keeps it (strainEnergy).
+    /// Stores the energy of stretching beside the total, with a surface of second order: the pressure neither counts nor keeps it (strainEnergy).
     void storeStrain(double energy)
     {
         modal -= energy;

@@ -58,7 +58,7 @@ UnheldFaces findUnheldFaces(const CutGrid& cut, FreeLiquid& work);
 /// Which bodies something holds, on faces that are not among these.
 HeldBodies findHeldBodies(const BlockGrid& grid, const PressureComponents& system, const UnheldFaces& unheld);
 
-/// From values on the faces of each free piece take the mean, by mass, of others: in sum over the piece, these then did nothing. What gradients
+/// Take the mean of others, by mass, from values on the faces of each free piece: in sum over it, these then did nothing. What gradients
 /// of a potential that is 0 around the piece do sums up to nothing by itself; of shortened ones, of those on faces that are taken to be fuller
 /// than they are, and of the jumps of surface tension something is left.
 /// @param others  on the faces, of values' unit; may be the values

@@ -9,7 +9,7 @@ namespace sim {
 struct Inflow {
     std::size_t source = 0;
     Shape mouth;          ///< part of the source outside of obstacles
-    double volume = 0.0;  ///< for which this step is to make room, spread evenly [cm^3]
+    double volume = 0.0;  ///< volume for which this step is to make room, spread evenly [cm^3]
 };
 
 /// The cells of the pressure system in which sources have pressed liquid into liquid, in the order of the inflows: the volume of each is spread over

@@ -27,7 +27,7 @@ struct ViscousSystem {
     BlockArray<double, 3> diagonal;   ///< diagonal of the matrix; 0 where a face is not unknown [g]
     BlockArray<double, 3> normal;     ///< 2 dt μ V / dx² of the normal strain along each axis in the middles of cells [g]
     BlockArray<double, 3> shear;      ///< dt μ V / dx² of the shear on each cell's lower edge along each axis [g]
-    BlockArray<double, 3> wall;       ///< by which walls that stick hold each face [g]; empty if they slip
+    BlockArray<double, 3> wall;       ///< part of the diagonal by which walls that stick hold each face [g]; empty if they slip
 
     /// @param impulse   dt μ [g/cm]
     /// @param friction  0: walls slip … 1: they stick [-]

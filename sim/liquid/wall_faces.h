@@ -25,10 +25,10 @@ class WallFaces {
         Vec3 heavy = Vec3::Zero();  ///< momentum that it gets, of what has weight [g cm/s]
         WallDriven operator+(const WallDriven& o) const { return {work + o.work, heavy + o.heavy}; }
     };
-    /// From masses and momenta after find, before fold takes this part off the faces. Faces that keep all of theirs are not in it.
+    /// Part that walls drive, from masses and momenta after find, before fold takes it off the faces. Faces that keep all of theirs are not in it.
     /// @param weightless  mass of each face whose weight nothing feels [g]
     WallDriven drivenByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const;
-    WallDriven driven;  ///< in this step; nothing where all walls rest
+    WallDriven driven;  ///< part that walls drive in this step; nothing where all walls rest
 
     /// Move mass, momentum and room of the closed faces to those that they follow. What follows no open face keeps its own.
     void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces);
@@ -60,8 +60,8 @@ class WallFaces {
     std::vector<std::vector<Follower>> followers_;  ///< followers of each block near a solid
     std::vector<int> place_;                        ///< place of each block among those near a solid
     std::array<std::vector<int>, 8> colors_;        ///< places of blocks of which no two touch
-    std::vector<int> blocks_;                       ///< near a solid
-    BlockArray<double, 9> folded_;                  ///< by place
+    std::vector<int> blocks_;                       ///< blocks near a solid
+    BlockArray<double, 9> folded_;                  ///< what images fold onto the faces of each block near a solid
 };
 
 }  // namespace sim

@@ -20,7 +20,7 @@ struct Particles {
 
     std::array<AlignedArray<double>, kAxes> x;      ///< position [cm]
     AlignedArray<double> mass;                      ///< [g]
-    AlignedArray<std::uint32_t> id;                 ///< which a sort does not change
+    AlignedArray<std::uint32_t> id;                 ///< number of each particle, which a sort does not change
     std::array<AlignedArray<double>, kAxes> modes;  ///< mode r of particle p at r * modeStride + p [cm/s]
     std::size_t modeStride = 0;
 

@@ -65,7 +65,7 @@ Vec3 separateCoincident(const Particles& particles, const LocalPositions& local,
 /// The three cells of one column around a cell, below to above.
 struct Column {
     int begin[3], end[3];
-    float offsetX, offsetY, offsetZ[3];  ///< of their blocks' corners from that of the cell's block, in units of the reach
+    float offsetX, offsetY, offsetZ[3];  ///< places of their blocks' corners against that of the cell's block, in units of the reach
 };
 
 /// The 3×3 columns around a cell, x first. Absent blocks hold empty runs.

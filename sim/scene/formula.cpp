@@ -31,13 +31,13 @@ struct Formula::Parser {
     mu::Parser parser;
     std::vector<FormulaNames::OfName> ofNames;
     std::vector<double> values;
-    std::vector<Bound> functions;  ///< with arguments
+    std::vector<Bound> functions;  ///< functions with arguments
     struct Measured {
         FormulaNames::Function function;
         double value = 1.0;
         bool isUsed = false;
     };
-    std::vector<Measured> measured;  ///< without: variables that are looked up before each evaluation
+    std::vector<Measured> measured;  ///< functions without arguments: variables that are looked up before each evaluation
     bool isTrial = true;             ///< evaluated to find what is wrong with the formula itself
 
     void define(Bound& bound)

@@ -19,7 +19,7 @@ namespace sim {
 /// A key that a map of a scene may have, as its declaration has it.
 struct DeclaredKey {
     enum class Kind {
-        Number,   ///< and NumberOrWord, where there are words
+        Number,   ///< a number; NumberOrWord, where there are words
         Numbers,  ///< a list of `count`
         NumberOrPair,
         Integer,
@@ -28,8 +28,8 @@ struct DeclaredKey {
         Text,
         Texts,
         Word,      ///< one of `words`
-        Words,     ///< a list of some of them
-        Map,       ///< with the keys `below`
+        Words,     ///< a list of some of `words`
+        Map,       ///< a map with the keys `below`
         PerPhase,  ///< as below.front(), or a map with both of `below`
         Formula,   ///< read by other code, which knows the names in it
         Other,     ///< read by other code
@@ -207,7 +207,7 @@ class KeyList {
         return k;
     }
 
-    std::vector<std::pair<std::string, const char*>> needed_;  ///< and what they are for
+    std::vector<std::pair<std::string, const char*>> needed_;  ///< keys that have to be there, and what they are for
 };
 
 }  // namespace sim

@@ -12,7 +12,7 @@ struct Override {
     std::string path;  ///< keys with dots between; an element of a list by its name or its number from 0
     Node value;        ///< value, with the location where messages about it point
 
-    /// As it would stand behind --set.
+    /// The override as it would stand behind --set.
     std::string text() const { return path + "=" + value.flow(); }
 };
 

@@ -44,7 +44,7 @@ struct SourceSettings {
     double volume = 0.0;                         ///< estimate, inside the domain and outside of obstacles [cm^3]
     std::string where;                           ///< "drop.yaml:14", for messages
     std::string shapeText;                       ///< the shape as a scene says it, in cgs, on one line
-    std::vector<std::string> notes;              ///< about its meshes
+    std::vector<std::string> notes;              ///< notes about its meshes
     std::optional<VelocityField> velocityField;  ///< velocity field of the initial body, beside the emission's velocity
 };
 

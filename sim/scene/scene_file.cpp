@@ -76,7 +76,7 @@ class IncludeReader {
         return merged;
     }
 
-    /// Of keys in them that were called otherwise before.
+    /// Notes on keys in them that were called otherwise before.
     std::vector<std::string> takeNotes() { return std::move(notes_); }
     /// All that was read, in that order.
     std::vector<SceneText> takeTexts() { return std::move(texts_); }

@@ -79,7 +79,7 @@ struct Prefix {
 };
 constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"c", -2}, {"d", -1}, {"k", 3}, {"M", 6}, {"G", 9}};
 
-/// Of a product of units: 10^decimals · factor.
+/// Scale of a product of units: 10^decimals · factor.
 struct Scale {
     int decimals = 0;
     double factor = 1.0;

@@ -13,7 +13,7 @@ Vec3 areaVector(const std::vector<Vec3>& vertices, std::span<const int> corners)
     return sum;
 }
 
-/// Of a triangle seen against the normal: positive where it turns left.
+/// Turn of a triangle seen against the normal: positive where it turns left.
 double turn(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) { return (b - a).cross(c - a).dot(normal); }
 
 bool isConvexFan(const std::vector<Vec3>& vertices, std::span<const int> corners, const Vec3& normal)

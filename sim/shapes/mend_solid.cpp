@@ -15,7 +15,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kWeld = 1.0e-6;  ///< of the mesh's size: below what single precision tells apart
+constexpr double kWeld = 1.0e-6;  ///< distance of corners that are one, relative to the mesh's size: below what single precision tells apart [-]
 
 using Edge = std::pair<int, int>;  ///< the smaller number first
 
@@ -48,7 +48,7 @@ Eigen::AlignedBox3d boundsOf(const TriangleMesh& mesh)
 
 void turnOver(Vec3i& face) { std::swap(face[1], face[2]); }
 
-/// Corners by the first of those at their place; faces that have no three are left out.
+/// Gives corners at one place the number of the first of them; faces that have no three are left out.
 void weld(TriangleMesh& mesh)
 {
     const std::vector<int> number = weldedNumbers(mesh.vertices, kWeld * boundsOf(mesh).sizes().maxCoeff());
@@ -57,7 +57,7 @@ void weld(TriangleMesh& mesh)
     std::erase_if(mesh.triangles, [](const Vec3i& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
 }
 
-/// As many faces run along it forward as backward: then the whole goes around every place a whole number of times.
+/// Do as many faces run along an edge forward as backward? Then the whole goes around every place a whole number of times.
 bool isBalanced(const std::vector<Side>& sides) { return 2 * std::ranges::count_if(sides, &Side::forward) == std::ssize(sides); }
 
 bool isBalanced(const Edges& edges)
@@ -65,7 +65,7 @@ bool isBalanced(const Edges& edges)
     return std::ranges::all_of(edges, [](const auto& edge) { return isBalanced(edge.second); });
 }
 
-/// Of faces with the same corners one stays. Returns the number of the others.
+/// Leaves one of the faces with the same corners. Returns the number of those dropped.
 std::size_t dropDoubled(std::vector<Vec3i>& faces)
 {
     std::set<std::array<int, 3>> seen;
@@ -98,7 +98,7 @@ class Parts {
     std::map<int, std::vector<int>> members_;
 };
 
-/// From each part's first face on; the smaller half of a part is what is turned. Returns the number of faces turned.
+/// Turns faces alike from each part's first one on; the smaller half of a part is what is turned. Returns the number of faces turned.
 int turnAlike(std::vector<Vec3i>& faces, const Edges& edges)
 {
     std::vector<std::vector<std::pair<int, bool>>> neighbours(faces.size());  // and: is it turned against this one?

@@ -113,7 +113,7 @@ Twist pieceTwist(const Piece& p, double t)
     return {p.origin.cross(rate), rate};
 }
 
-/// The same field, carried along by a rigid motion.
+/// The velocity field of a twist, carried along by a rigid motion.
 Twist moved(const Eigen::Isometry3d& m, const Twist& twist)
 {
     const Vec3 spin = m.linear() * twist.spin;

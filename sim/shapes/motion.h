@@ -54,7 +54,7 @@ class Motion {
     struct Piece {
         enum class Course { Eased, Sine, Path, Given };
         Course course = Course::Eased;
-        bool turns = false;  ///< about the axis, else along it
+        bool turns = false;  ///< whether it turns about the axis, or else moves along it
         Frame frame = Frame::World;
         double begin = 0.0, end = 0.0;       ///< [s]
         Vec3 axis = Vec3::UnitX();           ///< unit
@@ -63,7 +63,7 @@ class Motion {
         double easeIn = 0.0, easeOut = 0.0;  ///< [s]
         double frequency = 0.0;              ///< [1/s]
         std::vector<double> times;           ///< times of a path [s]
-        std::vector<Vec3> offsets, slopes;   ///< at these times [cm], [cm/s]
+        std::vector<Vec3> offsets, slopes;   ///< offsets [cm] and slopes [cm/s] of the path at these times
         bool cubic = false;
         std::function<Eigen::Isometry3d(double t)> given;
     };

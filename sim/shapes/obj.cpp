@@ -74,7 +74,7 @@ class ObjReader {
             if (in_.peek() == byte) in_.get();
     }
 
-    /// Without its comment; a backslash at the end of a line goes on with the next one. Lines end with LF, CR or both.
+    /// Reads a line without its comment; a backslash at its end goes on with the next one. Lines end with LF, CR or both.
     bool nextLine(std::string& line)
     {
         line.clear();
@@ -148,7 +148,7 @@ class ObjReader {
     std::ifstream in_;
     bool wantsLines_;
     int line_ = 1;       ///< where the line that is being read begins
-    int linesRead_ = 0;  ///< of the file, for that line
+    int linesRead_ = 0;  ///< number of lines read so far, for that line
     std::vector<int> corners_;
     TriangleMesh mesh_;
     std::vector<std::vector<int>> lines_;

@@ -57,8 +57,8 @@ class Shape {
         double least;   ///< lower bound [cm]
         double middle;  ///< what it is at the points' mean [cm]
     };
-    /// At up to kMostCorners points. The bound is exact for a flat surface and for a point; its error falls with the square of the hull's
-    /// size where the surface is smooth, and by halving the hull it comes as near as one likes anywhere.
+    /// Looks at the hull of up to kMostCorners points. The bound is exact for a flat surface and for a point; its error falls with the
+    /// square of the hull's size where the surface is smooth, and by halving the hull it comes as near as one likes anywhere.
     /// @param enough  how much larger the bound could be is not looked for [cm]
     Look over(std::span<const Vec3> corners, double enough = std::numeric_limits<double>::infinity()) const;
     static constexpr std::size_t kMostCorners = 6;

@@ -74,7 +74,7 @@ struct SampledBody final : Shape::Body {
     struct Cut {
         double x;  ///< [cm]
         std::size_t index;
-        double t;  ///< how far between them, 0..1
+        double t;  ///< share of the way between them [0..1]
     };
     /// Both ends of a range within the lattice, and the nodes between them.
     /// @return how many

@@ -174,7 +174,7 @@ class Marcher {
     Vec3 lower_;
     std::array<std::size_t, 3> nodes_{};
     std::vector<double> values_;
-    std::unordered_map<std::size_t, int> crossings_;  ///< by edge, to the vertex on it
+    std::unordered_map<std::size_t, int> crossings_;  ///< vertex on each edge that crosses the surface
     TriangleMesh mesh_;
 };
 

@@ -11,7 +11,7 @@ namespace sim {
 namespace {
 
 constexpr int kLeafTriangles = 4;
-constexpr int kMostDepth = 64;  ///< of a tree of halves with 2^31 triangles, and some
+constexpr int kMostDepth = 64;  ///< depth of a tree of halves with 2^31 triangles, and some more
 constexpr double kFar = 2.0;    ///< a group of triangles acts as one at this many radii
 
 Vec3 areaVector(const std::array<Vec3, 3>& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]); }

@@ -101,7 +101,7 @@ inline void forEachBlock(int blocks, Body&& body)
     parallelFor(static_cast<std::size_t>(blocks), kBlocksPerTask, [&](std::size_t b) { body(static_cast<int>(b)); });
 }
 
-/// forEachBlock with something to work in, the same for a few blocks in turn: body(b, tile).
+/// parallelFor over blocks, each with a tile to work in that a few blocks share in turn: body(b, tile).
 template <class Tile, class Body>
 inline void forEachBlockInTile(int blocks, Body&& body)
 {

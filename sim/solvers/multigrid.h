@@ -43,7 +43,7 @@ struct MultigridLevel {
 class Multigrid {
  public:
     struct Options {
-        int sweeps = 2;        ///< in each block before, and as many after the coarse correction
+        int sweeps = 2;        ///< sweeps in each block before the coarse correction, and as many after it
         int coarseSweeps = 2;  ///< number of sweeps on levels of one block
         int firstTwice = 2;    ///< levels from this one visit the next twice, while they have several blocks
     };

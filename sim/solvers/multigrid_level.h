@@ -19,7 +19,7 @@ struct Smoothing {
     int sweeps = 1;  ///< number of sweeps in each block
     Order order = Order::Forward;
     bool fromZero = false;                   ///< x of these blocks is taken as 0, whatever it holds
-    bool alone = false;                      ///< with fromZero, x of the neighbours is taken as 0 too
+    bool alone = false;                      ///< whether, with fromZero, x of the neighbours is taken as 0 too
     const MultigridLevel* coarse = nullptr;  ///< if given, its x is added to this one's first
     bool dots = false;                       ///< level.dot = r·x of each of these blocks, afterwards
 };

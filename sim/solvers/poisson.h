@@ -14,8 +14,8 @@ namespace sim {
 /// How large the largest residual of a solution may be: whatever of these allows more.
 struct SolveTolerance {
     SolveTolerance(double ofRightHandSide, double atLeast = 0.0) : relative(ofRightHandSide), absolute(atLeast) {}
-    double relative;  ///< to the largest right-hand side [-]
-    double absolute;  ///< [the unit of that]
+    double relative;  ///< largest residual relative to the largest right-hand side [-]
+    double absolute;  ///< largest residual [the unit of the right-hand side]
 };
 
 /// Solves A p = rhs by conjugate gradients in double, preconditioned by one multigrid cycle in float. Keeps the

@@ -79,7 +79,7 @@ class Flow {
 
     MouthSize measure() const { return {areaAcross(region_, emission_.velocity, pitch_), boundedVolume(region_, plan_.dx)}; }
     double packing() const { return packingOf(plan_.fill.pattern); }
-    double asked() const { return packing() * size_.area * speed_ * time_; }  ///< in the step [cm^3]
+    double asked() const { return packing() * size_.area * speed_ * time_; }  ///< volume that the source asks for in the step [cm^3]
     double layer() const { return packing() * size_.area * pitch_; }
     double left() const { return emission_.maxVolume - state_.emittedVolume[source_]; }
 
@@ -113,7 +113,7 @@ class Flow {
                scene_.settings.liquid.density;
     }
 
-    /// The same, free of the noise of single particles.
+    /// Share of the mouth that liquid covers, free of the noise of single particles [-].
     double coveredShare() const
     {
         constexpr double kAll = 0.8, kNone = 0.2;
@@ -212,13 +212,13 @@ class Flow {
     SourceMemory& memory_;
     SeedPlan plan_;
     Shape region_;
-    double pitch_;     ///< of the pattern [cm]
+    double pitch_;     ///< pitch of the pattern [cm]
     double speed_;     ///< [cm/s]
     double timeFrom_;  ///< the beginning of the step [s]
-    double time_;      ///< of it, in which it is asked for anything [s]
+    double time_;      ///< part of the step in which the source is asked for anything [s]
     MouthSize size_;
     bool isFirst_ = false;
-    bool isLast_;  ///< it ends within the step
+    bool isLast_;  ///< whether the emission ends within the step
 };
 
 /// Measures anew what may have changed.

@@ -17,7 +17,7 @@ struct MouthSize {
 
 struct EmissionWorkspace {
     std::vector<Inflow> inflows;                  ///< inflows of this step; without a volume where a source is shut
-    std::vector<std::optional<MouthSize>> sizes;  ///< for each emission of each source, while no obstacle moves
+    std::vector<std::optional<MouthSize>> sizes;  ///< sizes of the mouths, for each emission of each source, while no obstacle moves
 };
 
 /// Lay new particles into the sources that are active at the beginning of the step from timeFrom to timeTo, the time at

@@ -227,7 +227,7 @@ class Evening {
     BlockArray<double, 3> target_;  ///< share of each lower face's B-spline that is in the region [-]
     BlockArray<double, 3> base_;    ///< what particles bring there that are left alone [cells]
     BlockArray<double, 3> sums_;    ///< what all bring [cells]
-    BlockArray<double, 3> ratio_;   ///< of the share to what all bring [-]
+    BlockArray<double, 3> ratio_;   ///< ratio of each face's share to what all particles bring [-]
 };
 
 }  // namespace

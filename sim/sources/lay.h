@@ -15,7 +15,7 @@ namespace sim {
 /// The source in messages, with its file: `drop.yaml: source 1 "drop" `.
 std::string nameOf(const Scene& scene, std::size_t source);
 
-/// To fill a source as it is at a time, with the obstacles where they are then.
+/// Plan that fills a source as it is at a time, with the obstacles where they are then.
 SeedPlan planFor(const Scene& scene, std::size_t source, double time, const State& state);
 
 /// Liquid in the source of a plan and around it.

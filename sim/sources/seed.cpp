@@ -116,7 +116,7 @@ namespace {
 struct RayLattice {
     Vec3 first, alongU, alongW, direction;  ///< first ray's beginning, before the box; from one to the next [cm]
     std::size_t countU = 0, countW = 0;
-    double length = 0.0;  ///< that they have to go [cm]
+    double length = 0.0;  ///< length of the way that they have to go [cm]
 
     RayLattice(const Eigen::AlignedBox3d& box, const Vec3& unit, double pitch) : direction(unit)
     {

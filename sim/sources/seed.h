@@ -31,7 +31,7 @@ struct LiquidNearby {
 };
 
 struct Seeds {
-    std::vector<Vec3> positions;  ///< in the order of the pattern's places
+    std::vector<Vec3> positions;  ///< positions in the order of the pattern's places
     double volume = 0.0;          ///< volume of each particle, or their mean [cm^3]
     std::vector<double> volumes;  ///< volume of each particle, where they are not alike [cm^3]
 };

@@ -103,7 +103,7 @@ struct Sites {
 /// A place of a lattice in a region.
 struct Found {
     Vec3 x;
-    bool taken;  ///< by a particle that was there before
+    bool taken;  ///< whether a particle that was there before takes the place
 };
 
 /// Are all of the cubes around the places in the region?

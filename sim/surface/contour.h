@@ -14,7 +14,7 @@ struct Crossing {
     int block;
     std::uint16_t node;  ///< lower end of the edge, in the block
     std::uint16_t axis;  ///< axis that the edge runs along
-    float along;         ///< from the lower end, 0 < along < 1 [cells]
+    float along;         ///< distance from the lower end, 0 < along < 1 [cells]
 
     Vec3i cell() const { return {node & 7, node >> 3 & 7, node >> 6}; }
     /// Relative to the lower corner of the block [cells].
@@ -43,8 +43,8 @@ class Contour {
         Rows inside;
         std::array<Rows, kAxes> cut;                ///< edges that begin at these nodes hold a vertex
         std::array<std::uint16_t, kRows> rowStart;  ///< vertices of the block before those of a row
-        int vertices, triangles;                    ///< their numbers
-        int firstVertex, firstTriangle;             ///< among those of all blocks
+        int vertices, triangles;                    ///< numbers of vertices and triangles in the block
+        int firstVertex, firstTriangle;             ///< first vertex and triangle among those of all blocks
     };
 
     void compare(const float* values, float level, Block& block) const;
@@ -57,7 +57,7 @@ class Contour {
     template <class Visit>
     void forEachCutCell(const BlockGrid& grid, int block, Visit&& visit) const;
 
-    std::vector<Block> blocks_;  ///< and one of air behind them, for all that do not exist
+    std::vector<Block> blocks_;  ///< blocks, and one of air behind them for all that do not exist
     std::vector<Crossing> crossings_;
 };
 

@@ -30,7 +30,7 @@ class LiquidSurface {
 
     const SurfaceMesh& mesh() const { return mesh_; }
     double liquidVolume() const { return particles_.volume; }  ///< volume of the particles [cm^3]
-    double offset() const { return offset_; }                  ///< by which the surface was moved outwards [spacing]
+    double offset() const { return offset_; }                  ///< distance by which the surface was moved outwards [spacing]
     int blocks() const { return grid_.count(); }               ///< number of blocks of 8³ nodes that the grid has: all its memory
 
  private:

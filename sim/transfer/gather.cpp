@@ -31,12 +31,12 @@ struct Context {
     GatherScratch& scratch;
     Vec3 origin;
     double dx;
-    const GatherTile& tile;              ///< of the velocities whose modes are gathered
-    const GatherTile& moving;            ///< of those that the particles move with
-    const GatherTile* flipTile;          ///< of the old velocities, or null
-    const GatherTile* displacementTile;  ///< or null
+    const GatherTile& tile;              ///< tile of the velocities whose modes are gathered
+    const GatherTile& moving;            ///< tile of the velocities that the particles move with
+    const GatherTile* flipTile;          ///< tile of the old velocities, or null
+    const GatherTile* displacementTile;  ///< tile of the displacements, or null
     int modes;                           ///< N_r
-    Vec3 frame;                          ///< in which particles move by the midpoint rule [cm/s]
+    Vec3 frame;                          ///< velocity of the frame in which particles move by the midpoint rule [cm/s]
 };
 
 struct LaneSums {
@@ -47,8 +47,8 @@ struct LaneSums {
 /// Up to 8 particles of one cell.
 struct Batch {
     int first, count;
-    int node;         ///< of the tiles, where their stencils begin
-    bool atMidpoint;  ///< they move by the midpoint rule
+    int node;         ///< node of the tiles where their stencils begin
+    bool atMidpoint;  ///< whether they move by the midpoint rule
 };
 
 /// Gather one component of a batch: monomials, in c and in the particles' rows.

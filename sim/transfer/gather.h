@@ -22,7 +22,7 @@ struct GatherSettings {
     /// Cells whose particles move by the midpoint rule, with the velocity, not reflected, that they will find where it takes them in half the step;
     /// others move with the velocity that they get. Null if none do.
     const BlockBits<>* atMidpoint = nullptr;
-    /// By blocks, the velocities of the frames in which their particles move by the midpoint rule [cm/s]; null where all rest.
+    /// Velocities of the frames in which particles of each block move by the midpoint rule [cm/s]; null where all rest.
     const Vec3* frames = nullptr;
     /// Displacements of the particles to add to the positions [cm], one array per axis; null where there are none.
     const AlignedArray<double>* displacement = nullptr;

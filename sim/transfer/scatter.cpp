@@ -54,7 +54,7 @@ struct Prepared {
     double middleX[kLanes], middleY[kLanes];  ///< offset from the cell's middle
     double faceX[kLanes], faceY[kLanes];      ///< offset from the nearer face
     double centerZ[3][kFactors][kLanes];      ///< mass × weight × z^d of the three cell middles around
-    double faceZ[4][kFactors][kLanes];        ///< the same of the four faces around
+    double faceZ[4][kFactors][kLanes];        ///< factors along z of the four faces around
     int typeX[kLanes], typeY[kLanes];         ///< spline type of faceX, faceY: 1 or 2
 };
 

@@ -12,7 +12,7 @@ namespace sim {
 namespace {
 
 constexpr double kSmallestVolumeRatio = 0.1;  ///< det(I + dt C) below which the map is not to be trusted (transfer/README.md, Maps)
-constexpr int kPacks = 4;                     ///< for the 27 nodes of a stencil, node (i, j, k) at i + 3 j + 9 k; the rest has no weight
+constexpr int kPacks = 4;  ///< packs for the 27 nodes of a stencil, node (i, j, k) at i + 3 j + 9 k; lanes left over have no weight
 
 /// The nodes of one particle's stencil, as lanes.
 struct StencilPacks {

@@ -19,19 +19,19 @@ enum class Statistic {
     Mean,
     Smallest,
     Largest,
-    Change,        ///< last less first
+    Change,        ///< last value less the first
     Slope,         ///< slope of the straight line through them (least squares)
     Exponent,      ///< slope of ln value over ln at
-    Rate,          ///< at which they decay: −slope of ln |value|
+    Rate,          ///< rate at which values decay: −slope of ln |value|
     EnvelopeRate,  ///< rate of the peaks between passings of the mean
     Period,        ///< twice the mean distance of passings of the mean
     MeanError,     ///< mean of |value / expected − 1|
-    LargestError,  ///< largest of it
+    LargestError,  ///< largest of |value / expected − 1|
     RmsError,      ///< root mean square of value − expected, relative to that of how far the latter goes from its first
-    Reach,         ///< where they first pass a level upwards
+    Reach,         ///< place where they first pass a level upwards
 };
 
-/// As scene files write them.
+/// Statistics as scene files write them.
 inline std::span<const sim::Choice<Statistic>> choicesOf(Statistic)
 {
     static constexpr sim::Choice<Statistic> kAll[] = {{"first", Statistic::First},

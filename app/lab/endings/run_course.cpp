@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::string_view, 4> kFromOutside = {"sources_erg", "suction_erg", "solids_erg", "pins_erg"};
-/// With friction, which takes. Where a solve was cut short its forces are booked with more than they took: what is not gone was not taken.
+/// Work of obstacles with their friction, which takes. Where a solve was cut short its forces are booked with more than they took: what is not gone was not taken.
 constexpr std::string_view kObstacles = "obstacles_erg";
 /// The energy of a surface is in no sum. It gives by its own work and by that of the pressure that it makes; what it takes is not lost.
 constexpr std::string_view kSurface = "surface_tension_erg", kPressure = "pressure_erg";
@@ -51,7 +51,7 @@ double negligibleSpeed(double cell, double time)
     return time > 0.0 ? kUnfelt * cell / time : 0.0;
 }
 
-/// From energy_ledger.csv: what of the energy's rise nothing outside of liquid and fabric has paid for.
+/// Energy's rise for which nothing outside of liquid and fabric has paid, from energy_ledger.csv.
 Energy energyOf(const std::filesystem::path& csv)
 {
     std::ifstream in(csv);
@@ -98,7 +98,7 @@ double fastestPrescribed(const sim::Motion& motion, const Points& points, double
     return farthest * kParts / duration;
 }
 
-/// Of the corners of boxes around solids that move, and of the vertices of fabric that pins lead [cm/s].
+/// Largest speed of the corners of boxes around solids that move, and of the vertices of fabric that pins lead [cm/s].
 double fastestPrescribed(const sim::Scene& scene, double duration)
 {
     double fastest = 0.0;

@@ -15,7 +15,7 @@ struct RunCourse {
     double largestSpeed = 0.0;     ///< largest speed of a particle of the liquid [cm/s]
     double commonSpeed = 0.0;      ///< speed of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
     double prescribedSpeed = 0.0;  ///< speed of the fastest of solids and pins at any time of the run [cm/s]
-    double suctionSpeed = 0.0;     ///< to which suction of dry fabric could take liquid [cm/s]
+    double suctionSpeed = 0.0;     ///< speed to which suction of dry fabric could take liquid [cm/s]
 };
 
 /// A run is sound if its energy is never above that of the start plus the work of sources, suction, surface tension, obstacles, moving solids
@@ -25,7 +25,7 @@ inline constexpr double kAllowedGain = 0.01;
 /// fastest solid, nor than suction could make it.
 inline constexpr double kAllowedSpeed = 10.0;
 
-/// From steps.jsonl, energy_ledger.csv and resolved.yaml in the run's folder.
+/// Course of a run by steps.jsonl, energy_ledger.csv and resolved.yaml in its folder.
 RunCourse courseOf(const std::filesystem::path& folder);
 
 /// Which of the two a run breaks, and by how much; empty if none.

@@ -11,7 +11,7 @@ namespace app {
 
 /// How a run under stress ended.
 enum class RunOutcome {
-    Finished,  ///< to its end, all numbers finite, all pictures there
+    Finished,  ///< the run came to its end, all numbers finite, all pictures there
     Stopped,   ///< the run told scene, step, stage and why
     TimedOut,
     Unsound,      ///< the run gained energy or speed from nothing

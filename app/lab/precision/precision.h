@@ -16,7 +16,7 @@ struct PrecisionChoice {
     std::string name;
     std::vector<std::string> sets = {};  ///< "dotted.key=value"
     bool isQuick = true;
-    double cells = 0.0;  ///< that liquid as fast as Precision::speed crosses per step, which gives the step; 0: no matter
+    double cells = 0.0;  ///< cells that liquid as fast as Precision::speed crosses per step, which gives the step; 0: no matter
 };
 
 /// What is chosen for one run, by name.

@@ -13,9 +13,9 @@ namespace app {
 struct PrecisionCase {
     std::string name, title;
     Precision precision;
-    std::vector<PrecisionRow> rows;  ///< those that came to their end
+    std::vector<PrecisionRow> rows;  ///< rows of the runs that came to their end
 
-    std::vector<Cost> front() const;  ///< front of all of them
+    std::vector<Cost> front() const;  ///< front of all rows
     std::vector<Cost> costsOf(const std::string& method, const std::string& integrator) const;
     bool isOnFront(const PrecisionRow& row) const;
     bool isPublished(const PrecisionRow& row) const;

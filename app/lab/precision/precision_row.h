@@ -24,7 +24,7 @@ struct PrecisionRow {
     double viscosity = 0.0;    ///< kinematic, that would make the energy decay like this; NaN if not known [cm²/s]
     int threads = 1, repeats = 1;
     std::string settings;          ///< 16 digits: what the error depends on
-    std::string outcome = "done";  ///< or why the run did not come to its end
+    std::string outcome = "done";  ///< "done", or why the run did not come to its end
 
     bool isDone() const { return outcome == "done"; }
 };

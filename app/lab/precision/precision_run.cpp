@@ -74,7 +74,7 @@ Outcome runOnce(const LoadedScene& setup, const Precision& precision, const std:
     return outcome;
 }
 
-/// Of the energies after the start, whose particles the grid has not yet smoothed.
+/// Viscosity by the energies after the start, whose particles the grid has not yet smoothed.
 double viscosityOf(const Precision& precision, const std::vector<Sample>& energies)
 {
     if (precision.decay <= 0.0 || energies.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -15,7 +15,7 @@ class PrecisionTable {
 
     /// The row of a run that need not be made again: of the same settings and threads, and of as many repeats.
     const PrecisionRow* find(const PrecisionRun& run, int threads, int repeats) const;
-    /// In place of what was known of the run. Throws std::runtime_error.
+    /// Puts a row in the place of what was known of its run. Throws std::runtime_error.
     void add(const PrecisionRow& row);
 
  private:

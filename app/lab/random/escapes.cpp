@@ -67,7 +67,7 @@ class BeganOutside {
     bool of(std::uint32_t id) const { return id < isOutside_.size() ? isOutside_[id] != 0 : laterMay_; }
 
  private:
-    std::vector<char> isOutside_;  ///< of each particle there was at the start, by id
+    std::vector<char> isOutside_;  ///< whether each particle there was at the start is outside, by id
     bool laterMay_ = true;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFastest = 2.0e3;  // of anything at the start [cm/s]
 
-/// At which something crosses so many cells within the run [cm/s].
+/// Speed at which something crosses so many cells within the run [cm/s].
 double randomSpeed(RandomSource& random, const RandomPile& pile)
 {
     const double cells = random.acrossScales(0.1, 8.0);

@@ -22,7 +22,7 @@ class RandomSource {
     int whole(int low, int high) { return low + static_cast<int>(between(0.0, 1.0) * (high - low + 1)); }
     bool chance(double share) { return between(0.0, 1.0) < share; }
     std::string_view oneOf(std::initializer_list<std::string_view> words) { return words.begin()[whole(0, static_cast<int>(words.size()) - 1)]; }
-    /// In a cube around the origin.
+    /// A place in a cube around the origin.
     sim::Vec3 vector(double half) { return sim::Vec3{between(-half, half), between(-half, half), between(-half, half)}; }
     sim::Vec3 direction()
     {

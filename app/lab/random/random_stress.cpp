@@ -43,7 +43,7 @@ void tell(const RandomStressResult& result)
     std::fflush(stdout);
 }
 
-/// Of a run that finished or stopped: is it where and as fast as it may be?
+/// Judges a run that finished or stopped: is all where and as fast as it may be?
 void judgeLaws(const fs::path& file, const fs::path& folder, const RandomScene& scene, RunVerdict& outcome)
 {
     if (isFault(outcome.ending)) return;

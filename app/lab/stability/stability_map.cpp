@@ -52,7 +52,7 @@ std::vector<Job> jobsOf(const StabilityMap& map, double dt, const std::vector<St
     return jobs;
 }
 
-/// At steps of that length: nothing may cut them.
+/// Arguments of a run at steps of the job's length: nothing may cut them.
 std::vector<std::string> argumentsOf(const StabilityMap& map, const Job& job)
 {
     std::vector<std::string> sets = map.sets;

@@ -21,7 +21,7 @@ struct StabilityRow {
     std::string method;
     double dt = 0.0, duration = 0.0;  ///< [s]
     bool isStable = false;
-    std::string why;            ///< it is not, one line without commas
+    std::string why;            ///< reason where it is not stable, one line without commas
     double energyGain = 0.0;    ///< largest rise of the energy over its start, less work done from outside, over the largest kinetic energy [-]
     double largestSpeed = 0.0;  ///< largest speed of the liquid [cm/s]
     double seconds = 0.0;       ///< wall
@@ -35,7 +35,7 @@ struct StabilityMap {
     std::vector<double> steps;     ///< [s]
     double duration = 0.0;         ///< duration of every run: a whole number of the longest step [s]
     std::filesystem::path folder;  ///< scene's own: map.csv, map.png, and a folder per run
-    bool largestOnly = false;      ///< of each method only from the longest step to the first that is stable
+    bool largestOnly = false;      ///< runs each method only from the longest step to the first that is stable
     int width = 1;                 ///< so many runs side by side, each on one thread
     double limitSeconds = 3600.0;
     std::function<bool()> stopWanted = [] { return false; };

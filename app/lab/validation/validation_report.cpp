@@ -30,7 +30,7 @@ std::string deviation(const Finding& finding)
 /// compared with?
 bool hasLine(const Check& check) { return check.hasCurve() || (check.expect && check.statistic <= Statistic::Largest); }
 
-/// Of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
+/// Label of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
 std::string readingsLabel(const Check& check)
 {
     const bool isOfReadings = check.statistic <= Statistic::Change || check.hasCurve();

@@ -29,7 +29,7 @@ struct Fabric {
     std::span<const Vec3> velocity;                 ///< [cm/s]
     std::span<const double> mass;                   ///< dry [g]
     std::span<const double> absorbed;               ///< liquid in its pores [g]
-    std::span<const double> saturation;             ///< how full its pores are [0..1]
+    std::span<const double> saturation;             ///< saturation of each vertex: how full its pores are [0..1]
     std::span<const int> piece;                     ///< number of its fabric, as in the scene
     std::span<const std::array<int, 2>> edges;      ///< edges of yarns
     std::span<const std::array<int, 3>> triangles;  ///< triangles of cloth
@@ -62,13 +62,13 @@ struct Step {
     double seconds = 0.0;           ///< time that it took on the clock
     double liquidMass = 0.0;        ///< mass of all particles at its end [g]
     double absorbedMass = 0.0;      ///< mass of liquid in fabric at its end [g]
-    Energies energies;              ///< at its end
+    Energies energies;              ///< energies at its end
 };
 
 /// What acts on a body.
 struct Load {
     Vec3 force;   ///< [dyn]
-    Vec3 torque;  ///< about the origin of the scene [dyn cm]
+    Vec3 torque;  ///< torque about the origin of the scene [dyn cm]
 };
 
 }  // namespace drench

@@ -39,7 +39,7 @@ class Simulation {
     /// fabric by its name, by liquid and contact. 0 before the first step. Throws InputError where there is no such thing.
     Load on(const std::string& name) const;
     /// A formula of what is read as the scene runs, in the words of probes: "pressure(0, 1, 0)", "front_x(0.5)", "velocity_y(x, y, z)" with a
-    /// place for x, y and z [cm]; of `force_y("ball")` as above. NaN where it has no value. Throws InputError where it is no such formula.
+    /// place for x, y and z [cm]; forces as `force_y("ball")` are means as on() gives. NaN where it has no value. Throws InputError where it is none.
     double read(const std::string& formula, const Vec3& at = {}) const;
 
     /// Hash of all that evolves: equal hashes, equal states.

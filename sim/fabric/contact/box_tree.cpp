@@ -27,7 +27,7 @@ std::uint64_t spread(std::uint64_t v)  // bits 0, 1, 2 … to bits 0, 3, 6 …
     return r;
 }
 
-/// Of points within the box: near numbers are near each other.
+/// Morton code of a point within the box: points of near numbers are near each other.
 std::uint64_t mortonCode(const Vec3& x, const Eigen::AlignedBox3d& box)
 {
     const double scale = 2097151.0 / std::max(box.sizes().maxCoeff(), 1.0e-30);

@@ -16,7 +16,7 @@ constexpr double kMostDirty = 0.6;
 constexpr int kMostStepsAhead = 16;
 constexpr double kFarAhead = 12.0;
 
-/// Of each vertex the radius of the thinnest primitive it belongs to [cm].
+/// Radius of the thinnest primitive that each vertex belongs to [cm].
 std::vector<double> leastRadius(const Primitives& p)
 {
     std::vector<double> r(p.radius.begin() + p.firstVertex(), p.radius.begin() + p.firstFace());

@@ -64,7 +64,7 @@ class CandidateList {
     std::vector<double> drift_, driftAtRest_;  ///< VerletMargin of each vertex [cm]
 
     bool built_ = false;
-    Sweep sweep_;  ///< from where each vertex's pairs are known, and the move to search along
+    Sweep sweep_;  ///< places from where each vertex's pairs are known, and the moves to search along
     bool isStepStart_ = false;
     int stepsAhead_ = 0;                       ///< whose first moves the list is good for
     Points ahead_;                             ///< the first expected move of each of the steps ahead [cm]

@@ -13,9 +13,9 @@ struct CandidatePool {
     PairKind kind;
     AlignedArray<int> a, b;
     AlignedArray<std::array<int, 4>> vertices;
-    AlignedArray<double> reach, core;  ///< as in ContactDistances [cm]
-    AlignedArray<double> distance;     ///< distance of the two where they were last measured [cm]
-    AlignedArray<double> p, q;         ///< and their nearest points (Closest)
+    AlignedArray<double> reach, core;  ///< distances of each pair as in ContactDistances [cm]
+    AlignedArray<double> distance;     ///< distance of the two primitives where they were last measured [cm]
+    AlignedArray<double> p, q;         ///< nearest points of the two primitives (Closest)
     std::vector<int> unmeasured;       ///< places of pairs that have not been measured yet
 
     std::size_t size() const { return a.size(); }

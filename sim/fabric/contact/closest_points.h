@@ -17,7 +17,7 @@ enum class PairKind { EdgeEdge, VertexFace };
 template <class T>
 struct Closest {
     T p, q;               ///< [0..1]
-    Vec3T<T> separation;  ///< from the point of the second to that of the first [cm]
+    Vec3T<T> separation;  ///< vector from the nearest point of the second to that of the first [cm]
 };
 
 /// Shares of the four vertices in the separation; those of the second primitive are negative, all sum to zero.

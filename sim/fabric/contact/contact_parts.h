@@ -49,18 +49,18 @@ struct FabricContact::Parts {
     Acted actedOn(std::size_t i, std::span<const Vec3> x) const;
     double touchingMass();
 
-    const Cohesion* cohesion;  ///< or null
+    const Cohesion* cohesion;  ///< liquid bridges; null without
     contact::CandidateList list;
     contact::Limiter limiter;
     std::vector<Vec3> start;                               ///< positions at the start of the step [cm]
     std::vector<double> mass, inverseMass;                 ///< [g, 1/g]
     double h = 0.0, springStep = 0.0;                      ///< [s]
-    std::vector<contact::PairPlace> acting;                ///< by chunks
+    std::vector<contact::PairPlace> acting;                ///< pairs that act, by chunks
     std::vector<contact::PairPlace> edgePairs, facePairs;  ///< pairs that act, sorted
     contact::PairSorter sorter;
     ActiveContacts active;
     std::vector<FrictionPair> frictionPairs;  ///< friction of the active pairs
-    FrictionForces held;                      ///< at the start of the step
+    FrictionForces held;                      ///< friction that is held at the start of the step
     std::vector<Vec3> heldForce;              ///< force of friction that is held on the active pairs [dyn]
     std::vector<char> isTouching;             ///< whether each vertex touches
     std::vector<int> nearest, opposite;       ///< active pair of each yarn edge's and vertex' bridge, and of one on its other side; or −1

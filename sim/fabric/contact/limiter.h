@@ -24,11 +24,11 @@ class Limiter {
         PairKind kind;
         std::array<int, 4> vertices;
         std::array<double, 4> weights;
-        Vec3 normal;        ///< from the second to the first [-]
+        Vec3 normal;        ///< unit vector from the second to the first [-]
         double allowed;     ///< approach along the normal that is left alone [cm]
         double compliance;  ///< Σ c² / m of the free vertices [1/g]
         double separation;  ///< least distance on the way [cm]
-        double radii;       ///< sum of both [cm]
+        double radii;       ///< sum of the two radii [cm]
     };
 
     void cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
@@ -43,7 +43,7 @@ class Limiter {
     const Primitives& primitives_;
     std::span<const double> inverseMass_;
     Points motion_;                ///< mean move of each primitive's vertices, and as the fourth their largest distance from it [cm]
-    std::vector<PairPlace> near_;  ///< by chunks: what the quick look left
+    std::vector<PairPlace> near_;  ///< pairs that the quick look left, by chunks
     std::vector<PairPlace> places_;
     PairSorter sorter_;
     std::vector<ApproachingPair> approaching_;  ///< sorted: edges with edges first

@@ -28,7 +28,7 @@ std::array<Vec3, 2> FabricContact::Parts::directionsAt(std::span<const Vec3> x, 
     return {x[v[ends[0][1]]] - x[v[ends[0][0]]], x[v[ends[1][1]]] - x[v[ends[1][0]]]};
 }
 
-/// Of an active pair's separation across its normal, with what turns the pair: mean over the two directions [1/g].
+/// Mobility of an active pair's separation across its normal, with what turns the pair: mean over the two directions [1/g].
 double FabricContact::Parts::mobility(std::size_t slot) const
 {
     double sum = 0.0;
@@ -40,7 +40,7 @@ double FabricContact::Parts::mobility(std::size_t slot) const
     return sum;
 }
 
-/// Of an active pair that is described but for it, at x or where the moves expected lead; gives the pair its lever.
+/// Friction of an active pair that is described but for it, at x or where the moves expected lead; gives the pair its lever.
 Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const Vec3> expected, const PairEnergy& energy, double distance,
                                         std::size_t slot)
 {

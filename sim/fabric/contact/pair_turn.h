@@ -68,8 +68,8 @@ class PairTurn {
         return m;
     }
 
-    std::array<Mat3, 2> moment_;    ///< about the mean of a direction before and now, or of both where they are parallel, of what it changes by [-]
-    std::array<double, 2> length_;  ///< means of before and now [cm]
+    std::array<Mat3, 2> moment_;    ///< moments of the directions' changes, about the mean of before and now, or of both where they are parallel [-]
+    std::array<double, 2> length_;  ///< lengths of the directions, means of before and now [cm]
     Mat3 inverse_;                  ///< w is that times the moments of the directions' changes [-]
     Vec3 turn_;                     ///< w [-]
 };

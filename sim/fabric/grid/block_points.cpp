@@ -38,7 +38,7 @@ struct PlaneTables {
         [[gnu::always_inline]] Pack operator()(double r) const { return (a * r + b) * r + c; }
     };
     Row x[3], y[3][2];
-    Pack nodeX[2], nodeY[2][2];  ///< of middles or sides: position of the node relative to the cell, in cells
+    Pack nodeX[2], nodeY[2][2];  ///< positions of the nodes relative to the cell, for middles and for sides [cells]
 
     PlaneTables()
     {
@@ -66,7 +66,7 @@ struct PlaneTables {
 /// w (node − point)^d of up to 8 points for the nodes along z.
 template <int kTerms>
 struct AlongZ {
-    Pack of[2][4][kTerms];  ///< by middles (three) or sides (four)
+    Pack of[2][4][kTerms];  ///< terms for each node, of the three along middles or the four along sides
 
     [[gnu::always_inline]] explicit AlongZ(Pack z)
     {
@@ -148,7 +148,7 @@ struct ValueTerms {
     }
 };
 
-/// … or linear ones: numbers f_k of each point times its directions d_k.
+/// Values of each point that are linear around it: numbers f_k times its directions d_k.
 template <int kDirections>
 struct AlongTerms {
     const PointArray<3 * kDirections>&d, &f;

@@ -18,11 +18,11 @@ namespace sim {
 /// products with the system's matrix are bound by memory.
 struct BlockPoints {
     struct Cell {
-        int corner;  ///< in a tile: the lowest node that the cell's points reach
+        int corner;  ///< lowest node of a tile that the cell's points reach
         int begin;   ///< first point
     };
     std::vector<int> blockBegin;                     ///< cells of block order.occupied[n] are [blockBegin[n], blockBegin[n + 1])
-    std::vector<Cell> cells;                         ///< and one behind the last, where the points end
+    std::vector<Cell> cells;                         ///< cells with points, and one behind the last, where the points end
     std::vector<int> id;                             ///< number of each point's vertex or element
     std::array<AlignedArray<double>, kAxes> inCell;  ///< position of each point in its cell [0..1 cells]
     std::vector<int> row;                            ///< row of each point among the sorted particles, after find()

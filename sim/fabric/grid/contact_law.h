@@ -58,7 +58,7 @@ Vec3 scaledStrain(const Vec3& r, double share);
 namespace yarn {
 
 using Strain = Eigen::Matrix<double, 3, 2>;
-using SectionStiffness = Eigen::Matrix4d;  ///< by the entries b00, b10, b01, b11 of B
+using SectionStiffness = Eigen::Matrix4d;  ///< second derivatives by the entries b00, b10, b01, b11 of B
 
 /// q1 along the edge, q2 in the plane of q1 and d2.
 Mat3 frameOf(const Vec3& along, const Vec3& d2);

@@ -117,7 +117,7 @@ class ElementContact {
     std::vector<ContactModuli> moduli_;  ///< moduli of each material
     std::vector<int> material_;          ///< material of each element
     std::vector<double> volume_;         ///< packing factor times rest envelope volume [cm^3]
-    std::vector<double> mass_;           ///< when dry [g]
+    std::vector<double> mass_;           ///< mass of each vertex when dry [g]
     std::vector<Local> local_;
     std::vector<Stress> stress_;
     std::vector<int> active_;

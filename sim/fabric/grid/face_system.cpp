@@ -8,7 +8,7 @@ namespace sim {
 
 namespace {
 
-/// Of a face that elements feel, relative to the mean mass of vertices [-].
+/// Least mass of a face that elements feel, relative to the mean mass of vertices [-].
 constexpr double kLeastMass = 1.0e-9;
 
 }  // namespace

@@ -58,7 +58,7 @@ class FaceSystem {
     /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
     void begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
-    /// Stiffness and contact must be assembled, and stay until the solve is done.
+    /// Takes stiffness and contact as they are assembled, which stay until the solve is done.
     void assemble();
 
     std::size_t edges() const { return fabric_.edges.size(); }
@@ -148,7 +148,7 @@ class FaceSystem {
     PointArray<3> onVertices_;               ///< values on each vertex, in the order of the blocks
     PointArray<9> onElements_;
     std::vector<int> first_;         ///< index of each element's first nodal force
-    AlignedArray<double> in_, out_;  ///< by vertex unknowns
+    AlignedArray<double> in_, out_;  ///< input and output of the stiffness's product, by vertex unknowns
     BlockArray<double, 3> work_;
     FaceVector residual_, p_, q_;      ///< vectors of the solve
     std::vector<Vec3> left_, moving_;  ///< sum of each group's residuals [g cm/s] and of its masses [g]

@@ -51,7 +51,7 @@ void GridFabricSolver::bookSolve(double h, const Vec3& gravity, const FabricStat
     changes[EnergyChange::FabricToVertices] = onFaces.fall - onFaces.kineticAfter - before.potential;
 }
 
-/// The rest, when the vertices have moved.
+/// Books what was left of the step when the vertices have moved, after bookSolve.
 void GridFabricSolver::bookVertices(const Vec3& gravity, const ContactEnergy& before, const FabricState& state, EnergyChanges& changes) const
 {
     changes[EnergyChange::Contact] += state.stored.pressed - before.pressed;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kNegligibleGain = 1.0e-3;
 constexpr double kTighter = 0.1;  ///< what the errors of the next solve must keep within, relative to those of one that gave energy [-]
 constexpr int kMostNewton = 8;    ///< iterations
-constexpr int kMostRepeats = 3;   ///< of a solve, to take contact in that was not expected
+constexpr int kMostRepeats = 3;   ///< repeats of a solve at most, to take contact in that was not expected
 
 }  // namespace
 

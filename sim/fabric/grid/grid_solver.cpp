@@ -17,8 +17,8 @@ constexpr double kAccelerationTolerance = 0.005;
 /// Beyond so many iterations errors are borne up to another share of it; larger ones would push liquid with forces that no fabric has, and make
 /// energy, so that the solve goes on however long it takes.
 constexpr int kMaxIterations = 200, kMostIterations = 20000;
-constexpr double kAcceptable = 0.1;  ///< of referenceAcceleration [-]
-/// Of that tolerance: accelerations below it are not felt, and their contact is left out [-].
+constexpr double kAcceptable = 0.1;  ///< error of a solve that is acceptable, relative to referenceAcceleration [-]
+/// Share of the acceleration tolerance below which accelerations are not felt, and their contact is left out [-].
 constexpr double kNegligible = 0.01;
 
 }  // namespace
@@ -91,7 +91,7 @@ GridFabricSolver::Mechanical GridFabricSolver::energyAfter(double part, double h
     return {free, elasticEnergies(at, stiffness_.rods(), stiffness_.shells()).elastic()};
 }
 
-/// Of move_, which solids at rest have changed: the part with which they give the fabric no energy, or the least of it [0..1]. Where some
+/// Part of move_, which solids at rest have changed, with which they give the fabric no energy, or the least of it [0..1]. Where some
 /// vertices are stopped and those beside them go on, threads stretch, which is paid for by what all of them lose of their motion.
 double GridFabricSolver::partWithoutGain(double limit, double h, const Vec3& gravity, const FabricState& state)
 {

@@ -48,7 +48,7 @@ class GridFabricSolver final : public FabricIntegrator {
     struct Solve {
         double h;  ///< [s]
         const Vec3& gravity;
-        const FabricState& state;  ///< at the start
+        const FabricState& state;  ///< state at the start of the step
         const FaceLoads* loads;
         FaceTolerance tolerance;
         double kinetic;  ///< energy of the fabric's motion, or of one that is not felt [erg]

@@ -94,7 +94,7 @@ class VertexStiffness {
         std::array<int, 3> vertices;
         std::array<double, 3> shares;  ///< shares of the vertices in the point [-]
         Mat3 stiffness;                ///< [dyn/cm]
-        Vec3 gradient;                 ///< at the state [dyn]
+        Vec3 gradient;                 ///< gradient of the energy at the state [dyn]
     };
     void findShared();
     void findPinStiffness(const Fabric& fabric);
@@ -126,7 +126,7 @@ class VertexStiffness {
     StrandMatrix strands_;
     TwistElimination twist_;
     BlockMatrix cloth_;
-    mutable AlignedArray<double> clothIn_;  ///< by rows of cloth, with a fourth number, 0
+    mutable AlignedArray<double> clothIn_;  ///< product's input by rows of cloth, three numbers and 0 each
     std::vector<Shared> shared_;
     std::vector<Spring> springs_;       ///< springs, those of pins first
     std::vector<Vec3> restReference_;   ///< reference direction of each yarn edge at rest
@@ -135,7 +135,7 @@ class VertexStiffness {
     std::vector<double> heldStiffness_;  ///< stiffness of each held edge's pin against twist [dyn cm]
     std::vector<double> heldTorque_;     ///< energy gradient of each held edge's pin at the state [dyn cm]
     AlignedArray<double> gradient_;
-    std::optional<ElasticStep> step_;  ///< of the last assemble
+    std::optional<ElasticStep> step_;  ///< rods and shells in the step of the last assemble
     const FabricState* at_ = nullptr;  ///< state at which the internal forces are assembled
     AlignedArray<double> reached_;     ///< velocities that lead there in the step, by VertexUnknowns [cm/s, 1/s]
     mutable AlignedArray<double> product_;

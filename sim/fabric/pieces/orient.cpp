@@ -34,7 +34,7 @@ std::vector<Side> sortedSides(const std::vector<Vec3i>& faces)
 
 struct Neighbour {
     int face = -1;
-    bool isAgainst = false;  ///< it runs along the edge in the same direction
+    bool isAgainst = false;  ///< whether both faces run along their edge in one direction
 };
 
 }  // namespace

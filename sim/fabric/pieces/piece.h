@@ -18,7 +18,7 @@ struct FabricMaterial {
     double dampingViscosity = 0.0;              ///< η of a Kelvin-Voigt damping with viscous Young's modulus 3η; 0 = none [P]
     bool dampBending = true;                    ///< η damps bending and twisting
     bool dampStretching = true;                 ///< η damps stretching
-    double stretchFactor = 1.0;                 ///< on the stretching stiffness of yarns [-]
+    double stretchFactor = 1.0;                 ///< factor on the stretching stiffness of yarns [-]
     double contactStiffness = 1.0e-2;           ///< stiffness of contact on the grid relative to young; solver grid only [-]
     double pinStiffness = 2.0e-2;               ///< stiffness of the springs at pins relative to young; solver grid only [-]
     double frictionAngle = 30.0 * kPi / 180.0;  ///< tan of it is Coulomb's coefficient [rad]
@@ -32,7 +32,7 @@ struct FabricMaterial {
 
 /// Vertices that are held: they follow `motion` from where the scene puts them.
 struct PinGroup {
-    std::string name;           ///< by which motions call it; may be empty
+    std::string name;           ///< name by which motions call it; may be empty
     std::vector<int> vertices;  ///< vertices of the piece, ascending
     bool twist = false;         ///< the twist of yarn edges that begin or end at these vertices is held too
     Motion motion;
@@ -45,7 +45,7 @@ struct PinGroup {
 /// and on strands and faces.
 struct FabricPiece {
     std::string name;
-    std::string group;  ///< another name for motions, which several pieces may share; may be empty
+    std::string group;  ///< name for motions that several pieces may share; may be empty
     std::string materialName;
     FabricMaterial material;
     std::array<double, 2> radius{};         ///< half axes of a yarn's section, along m1 and m2; cloth is as thick as their sum [cm]
@@ -59,7 +59,7 @@ struct FabricPiece {
     std::string where;               ///< "flag.yaml:14", for messages
     std::string kind;                ///< the generator that made it: "cloth_grid"
     std::string text;                ///< what it was asked for, as a scene says it, in cgs, on one line
-    std::vector<std::string> notes;  ///< about its file
+    std::vector<std::string> notes;  ///< notes about its file
     std::string transformText;       ///< where it was moved then, as a scene says it; empty if it was not
 
     /// What a scene calls a point: its number, or that in the file from which it comes.

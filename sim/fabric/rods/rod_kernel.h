@@ -30,7 +30,7 @@ inline constexpr double kLeastFold = 1.0e-12;
 /// How a rod is bent and twisted at an interior vertex.
 template <class T>
 struct RodStrain {
-    std::array<T, 4> curvature;  ///< κ0 = κb·m2_e, κ1 = −κb·m1_e, and the same with the edge after [-]
+    std::array<T, 4> curvature;  ///< curvatures by the edge before, κb·m2_e and −κb·m1_e, and by the edge after, κb·m2_f and −κb·m1_f [-]
     std::array<RodGradient<T>, 4> curvatureGradient;
     RodGradient<T> twistGradient;  ///< gradient of m = reference twist + θ_f − θ_e
 };

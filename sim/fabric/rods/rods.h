@@ -74,7 +74,7 @@ class Rods {
     /// One per packed vertex that has an edge on either side.
     struct Bend {
         Pack perLength;                 ///< 1 / Voronoi length; 0 in unused lanes [1/cm]
-        std::array<Pack, 4> curvature;  ///< at rest [-]
+        std::array<Pack, 4> curvature;  ///< curvatures at rest [-]
     };
 
     StrandLayout layout_;
@@ -83,7 +83,7 @@ class Rods {
     std::vector<Bend> bends_;
     bool damped_ = false;
     std::vector<Pack> startStretch_;              ///< l / l̄ of each packed edge
-    std::vector<Pack> twistHessianShare_;         ///< for each group 1 in lanes of rods whose torque has its part in the matrix, else 0
+    std::vector<Pack> twistHessianShare_;         ///< per group: 1 in lanes of rods whose torque has its part in the matrix, else 0
     std::vector<std::array<Pack, 5>> startBend_;  ///< curvatures and twist of each packed vertex
 };
 

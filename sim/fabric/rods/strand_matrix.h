@@ -16,8 +16,8 @@ struct StrandLayout {
     using Lanes = std::array<int, kLanes>;
     struct Group {
         int vertices = 0;     ///< number of vertices of its longest strand
-        int firstVertex = 0;  ///< in `vertex`
-        int firstEdge = 0;    ///< in `edge`
+        int firstVertex = 0;  ///< first vertex of the group in `vertex`
+        int firstEdge = 0;    ///< first edge of the group in `edge`
         int firstRow = 0;     ///< first row among all groups'
         int edges() const { return vertices - 1; }
         int rows() const { return 4 * vertices - 1; }

@@ -53,7 +53,7 @@ MembraneStrain<T> membraneStrain(const ShellRest<T>& rest, const ShellCorners<T>
 /// Second Piola-Kirchhoff stress times thickness [dyn/cm], and its derivative by the strain as 00 11 22 01 02 12.
 template <class T>
 struct MembraneStress {
-    T energy;  ///< per rest area [dyn/cm]
+    T energy;  ///< energy per rest area [dyn/cm]
     std::array<T, 3> stress;
     std::array<T, 6> tangent;
 };

@@ -74,9 +74,9 @@ Shells::Step Shells::startStep(std::span<const Vec3> x)
 
 /// Stresses and moments of kLanes triangles, and what they depend on.
 struct Shells::Forces {
-    MembraneStress<Pack> elastic;                     ///< of the membrane, without damping
-    std::array<Pack, 3> stress;                       ///< of the membrane, with it
-    std::array<std::array<PackVec3, 3>, 3> byStrain;  ///< of each own vertex: ∂ε/∂x for the three strains
+    MembraneStress<Pack> elastic;                     ///< elastic stress of the membrane
+    std::array<Pack, 3> stress;                       ///< stress of the membrane with its damping
+    std::array<std::array<PackVec3, 3>, 3> byStrain;  ///< derivatives ∂ε/∂x of the three strains for each own vertex
     ShellBend<Pack> bend;
     BendMeasure measure;
     std::array<Pack, 3> moment;  ///< ∂E/∂θ of each edge

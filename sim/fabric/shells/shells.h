@@ -69,7 +69,7 @@ class Shells {
         Pack bendDamping{};                              ///< 3η/E of bending if it is damped, else 0 [s]
         std::array<Lanes, kBlocks> entry;                ///< where a block, or its transpose, stands in the matrix; −1 for no block
         std::array<unsigned, kBlocks> isTransposed;      ///< bit l: of lane l it is the transpose
-        std::array<Pack, 3> startGreen{}, startAngle{};  ///< at the start of the step
+        std::array<Pack, 3> startGreen{}, startAngle{};  ///< Green's strains and angles at the start of the step
     };
     void fill(const Fabric& fabric, const FabricSettings& settings, std::size_t begin, std::size_t end, const BlockMatrix& pattern,
               Batch& batch) const;

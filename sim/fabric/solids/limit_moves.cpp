@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kSlides = 3;                             ///< surfaces along which a vertex slides at most: a corner has three
 constexpr int kPushes = 4, kDraws = 6, kCarries = 60;  ///< rounds of each remedy
-constexpr int kHelped = 3;                             ///< of those in which fabric goes with the solid, until what still fails is left to its pins
-constexpr double kDrawn = 0.5;                         ///< towards the solid's own motion in one of them [-]
-constexpr int kMostCarriers = 3;  ///< with which a vertex goes in turn; one that is torn to and fro longer has no straight way between them
+constexpr int kHelped = 3;                             ///< rounds in which fabric goes with the solid, until what still fails is left to its pins
+constexpr double kDrawn = 0.5;                         ///< share of the way to the solid's own motion in a round of drawing [-]
+constexpr int kMostCarriers = 3;  ///< solids with which a vertex goes in turn; one that is torn to and fro longer has no straight way between them
 
 }  // namespace
 

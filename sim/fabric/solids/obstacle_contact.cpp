@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kStiffness = 50.0;   ///< of the penalty relative to m/h² (fabric/README.md, Solids) [-]
+constexpr double kStiffness = 50.0;   ///< stiffness of the penalty relative to m/h² (fabric/README.md, Solids) [-]
 constexpr double kActivation = 0.25;  ///< distance at which it begins to act, in radii of the fabric [-]
 
 }  // namespace
@@ -91,7 +91,7 @@ FabricObstacles::Point FabricObstacles::edgePoint(const Fabric& fabric, int edge
             move};
 }
 
-/// As heavy as its corners make it.
+/// A nearest point as one that may touch, as heavy as its corners make it.
 FabricObstacles::Point FabricObstacles::nearestPoint(const Fabric& fabric, const NearestPoint& p, std::span<const Vec3> x, const Start& start) const
 {
     const auto mean = [&](std::span<const Vec3> of) -> Vec3 {
@@ -106,13 +106,13 @@ FabricObstacles::Point FabricObstacles::nearestPoint(const Fabric& fabric, const
     return {number, mean(x), mean(start.x), p.radius, 1.0 / compliance, fabric.vertexMaterial[p.vertices[0]], move};
 }
 
-/// Of the penalty on a point [dyn/cm].
+/// Stiffness of the penalty on a point [dyn/cm].
 double FabricObstacles::stiffnessOf(const Point& point, const Start& start)
 {
     return kStiffness * point.mass / (start.springStep * start.springStep);
 }
 
-/// Of the bridge between a point and an obstacle [dyn]. It comes about between steps, so that Newton's iterations do not make and break it.
+/// Force of the bridge between a point and an obstacle [dyn]. It comes about between steps, so that Newton's iterations do not make and break it.
 double FabricObstacles::bridgeForceOf(const Point& point, int obstacle) const
 {
     const Body& body = bodies_[obstacle];
@@ -168,7 +168,7 @@ Vec3 FabricObstacles::collect(const Point& point, int obstacle, const ObstacleCo
     return touching->overlap * n;
 }
 
-/// Likewise with all obstacles.
+/// The contacts of a point between these corners with all obstacles; how far they push the point [cm].
 Vec3 FabricObstacles::collect(const Point& point, const ObstacleContact& corners, const Start& start, std::vector<ObstacleContact>& out) const
 {
     Vec3 pushedOut = Vec3::Zero();

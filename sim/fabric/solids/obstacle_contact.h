@@ -76,7 +76,7 @@ class FabricObstacles {
     void storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held);
     /// Energy that the contacts found last hold at x, in their penalty and in the friction that is held there [erg].
     double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const;
-    /// The part of it that is in liquid bridges, 0 or below [erg].
+    /// Energy that the contacts found last hold at x in liquid bridges, 0 or below [erg].
     double bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const;
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
     double deepest(const Fabric& fabric, std::span<const Vec3> x) const;
@@ -86,7 +86,7 @@ class FabricObstacles {
         int inScene;     ///< number in the scene
         Obstacles pose;  ///< the obstacle alone
         Motion motion;
-        Eigen::Isometry3d carry;       ///< from where the obstacle is at the start of the step to where it is at the end
+        Eigen::Isometry3d carry;       ///< motion of the obstacle from the start of the step to its end
         std::vector<double> friction;  ///< Coulomb's coefficient against each material of the fabric [-]
         bool isCohesive;
     };

@@ -14,7 +14,7 @@ namespace sim {
 /// What was limited at solids.
 struct SolidLimitReport {
     std::vector<int> stopped;  ///< vertices of edges and faces whose moves had to be changed, each as often as that was done
-    int left = 0;  ///< edges and faces that passed a solid or came too near all the same: fabric then rests, or moves in halves of the time
+    int left = 0;              ///< edges and faces that still passed a solid or came too near: fabric then rests, or moves in halves of the time
 
     void clear() { stopped.clear(), left = 0; }
 };
@@ -32,7 +32,7 @@ struct NearestPoint {
 /// fabric go straight from where they are at the start of a step to where they are at its end: no point of an edge or a face may come
 /// nearer than a part of its radius on the way, however thin, pointed or fast the solid is. What would is stopped at the surface, slides
 /// along it, or is carried ahead. What begins nearer may come no nearer still, and what begins inside of a solid is free to leave it: of
-/// faces that a solid pierces their edges are looked at, of such edges their ends; likewise of what pins draw into a solid.
+/// faces that a solid pierces their edges are looked at, of such edges their ends. What pins draw into a solid is looked at so too.
 class SolidLimiter {
  public:
     SolidLimiter() = default;
@@ -76,7 +76,7 @@ class SolidLimiter {
         Shape shape;
         Motion motion;
         double steepest;                        ///< slope of its distance [-]
-        Eigen::Isometry3d end, toBegin, toEnd;  ///< from its frame at the end, and into it at both ends of the moves
+        Eigen::Isometry3d end, toBegin, toEnd;  ///< maps from its frame at the end, and into its frame at the beginning and at the end
         bool moves = false, isNear = false;
         std::vector<double> distance, clear;  ///< distance of each vertex at the start, and less its way past the solid [cm]
     };
@@ -126,7 +126,7 @@ class SolidLimiter {
     std::vector<std::vector<Blocked>> ofChunk_;
     std::vector<Blocked> blocked_;
     struct Carrier {
-        int body = -1, changes = 0;  ///< with which solid it goes in this limit(), and how often that was another one before
+        int body = -1, changes = 0;  ///< solid with which it goes in this limit(), and how often it was another before
     };
     std::vector<Carrier> carriers_;  ///< carrier of each vertex
     std::vector<Vec3> at_, part_;    ///< place and next move of each vertex on its way in halves [cm]

@@ -8,7 +8,7 @@ namespace sim::solids {
 namespace {
 
 constexpr int kMostLooks = 400;              ///< after as many the bound is taken as it is: safe, only less sharp
-constexpr double kLeastStride = 1.0 / 1024;  ///< of the way: nearer than this to what is not safe is arrived
+constexpr double kLeastStride = 1.0 / 1024;  ///< share of the way: nearer than this to what is not safe is arrived [-]
 
 /// Part of an element: its corners as weights of those of the whole.
 struct Part {
@@ -38,7 +38,7 @@ class Waiting {
     bool full() const { return count_ + 2 > kRoom; }
     void push(const Part& part) { parts_[count_++] = part; }
     Part pop() { return parts_[--count_]; }
-    /// Both halves, cut across the longest side.
+    /// Takes in both halves of a part, cut across its longest side.
     /// @param x  where its corners are
     void pushHalves(const Part& part, const std::array<Vec3, 3>& x, int corners)
     {

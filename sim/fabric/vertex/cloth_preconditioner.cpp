@@ -15,9 +15,9 @@ using Block = Mat3;
 using BlockRef = Eigen::Map<Block>;
 using ConstBlockRef = Eigen::Map<const Block>;
 
-constexpr int kParts = 16;            ///< at most, of the rows, that are worked on side by side
-constexpr int kRowsPerPart = 2048;    ///< at least: what parts leave out of the factor costs iterations
-constexpr double kLeastPivot = 0.05;  ///< of a row's own diagonal block [-]
+constexpr int kParts = 16;            ///< parts of the rows at most that are worked on side by side
+constexpr int kRowsPerPart = 2048;    ///< rows of a part at least: what parts leave out of the factor costs iterations
+constexpr double kLeastPivot = 0.05;  ///< least pivot, relative to a row's own diagonal block [-]
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace sim {
 
 /// A matrix of 3 x 3 numbers, by columns of 4 of which the last counts for nothing.
 struct Mat3Columns {
-    /// As it is stored.
+    /// Numbers of a matrix as they are stored.
     using Floats = std::array<std::array<float, 4>, 3>;
 
     HalfPack column[3] = {};

@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-/// Of its error in the step's first iteration a component is solved to this times the share that is asked for (LinearTolerance) [-].
+/// Factor on the share that is asked for (LinearTolerance), to which a component's error is solved in the step's first iteration [-].
 constexpr double kShareOfFirst = 0.3;
 
 }  // namespace
@@ -112,7 +112,7 @@ void VertexSystem::findSteps()
     }
 }
 
-/// Of each group of strands: 1 in lanes of components that the last solve has not found to be indefinite, else 0.
+/// Packs of each group of strands: 1 in lanes of components that the last solve has not found to be indefinite, else 0.
 std::vector<Pack> VertexSystem::lanesNotIndefinite() const
 {
     std::vector<Pack> lanes(strandPieces_.size(), broadcast(1.0));

@@ -76,7 +76,7 @@ Vec3 VertexSolver::impulseOfHolder(std::size_t v, double h, const FabricState& s
     return gained - h * mass_[v] * gravity_ - 0.25 * h * (meanForceBefore(v, h) - 3.0 * gradient - 2.0 * abrupt);
 }
 
-/// Its work [erg]: on the way that the vertex went, but for what changes the kinetic energy.
+/// Work of what holds a vertex by an impulse [erg]: on the way that the vertex went, but for what changes the kinetic energy.
 double VertexSolver::workOfHolder(std::size_t v, double h, const FabricState& state, const Vec3& impulse) const
 {
     if (!isSecondOrder_) return impulse.dot(state.v[v]);

@@ -23,7 +23,7 @@ Vec3 VertexSolver::forceAtEnd(std::size_t contact) const
     return contacts_->force[contact] + contacts_->stiffness[contact] * along + contacts_->frictionStiffness[contact] * (change - along);
 }
 
-/// The same of a point on a solid.
+/// Gradient of a point on a solid by its place at the end [dyn]: what acted there, and its stiffness times what Newton has left to go.
 Vec3 VertexSolver::forceAtEnd(const ObstacleContact& contact) const
 {
     const std::array<int, 3> v = contact.vertices();

@@ -17,7 +17,7 @@ constexpr double kMostRecovered = 0.03;
 
 }  // namespace
 
-/// At x, of what touched at the last look, with the friction that is held.
+/// Energy of contact at x, of what touched at the last look, with the friction that is held.
 ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const
 {
     ContactEnergy stored;
@@ -119,7 +119,7 @@ void VertexSolver::removeSpuriousGain(const Part& part)
     slowDown(due(), fabric_, groups_, mass_, state);
 }
 
-/// From the start of the attempt a share of the way against the drift, and all of that.
+/// Moves from the start of the attempt a share of the way against the drift, and all of the drift.
 void VertexSolver::applyFraction(const Part& part, const SubstepDisplacement& displacement, double share)
 {
     FabricState& state = part.state;

@@ -8,7 +8,7 @@ namespace sim {
 
 namespace {
 
-constexpr int kMostTurns = 8;  ///< of solids and of pairs in limiting a move
+constexpr int kMostTurns = 8;  ///< turns of solids and of pairs in limiting a move
 
 }  // namespace
 

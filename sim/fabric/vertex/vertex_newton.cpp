@@ -11,20 +11,20 @@ namespace sim {
 
 namespace {
 
-constexpr double kTolerance = 1.0e-2;    ///< of the linear solves, relative: looser ones act as damping (fabric/vertex/README.md, Linear solve) [-]
+constexpr double kTolerance = 1.0e-2;    ///< error left by linear solves: looser ones act as damping (fabric/vertex/README.md, Linear solve) [-]
 constexpr double kMoveTolerance = 0.05;  ///< rms error of moves at which iterations end [radii]
 /// rms error of accelerations at which iterations end: more makes energy from step to step [referenceAcceleration]
 constexpr double kAcceptable = 0.05;
-constexpr double kRoundings = 4.0;           ///< of places in a step: slower motion is none [-]
-constexpr double kLeftAtContact = 0.3;       ///< of errors too small to be felt: they would shake loose what friction holds just so [-]
+constexpr double kRoundings = 4.0;           ///< motion that counts as none, in roundings of places in a step [-]
+constexpr double kLeftAtContact = 0.3;       ///< share left of errors too small to be felt: they would shake loose what friction holds just so [-]
 constexpr double kQuietAcceleration = 0.25;  ///< largest change by a Newton iteration after whose small move no other is made [referenceAcceleration]
 constexpr double kLastMove = 0.1;            ///< rms move of a Newton iteration that may be the last [radii]
 constexpr double kSettledMove = 0.25;        ///< rms move of an iteration after which a step needs no halves [radii]
-constexpr double kSmallMove = 0.03;          ///< the same where moves do not become smaller from one to the next [radii]
-constexpr double kContraction = 0.5;         ///< from one iteration's move to the next [-]
-constexpr int kMostNewton = 6;               ///< iterations to get there; more ask for halves
+constexpr double kSmallMove = 0.03;          ///< rms move after which a step needs no halves though moves do not become smaller [radii]
+constexpr double kContraction = 0.5;         ///< ratio of an iteration's move to the one before that counts as smaller [-]
+constexpr int kMostNewton = 6;               ///< Newton iterations towards a small move at most; more ask for halves
 constexpr double kFrictionError = 0.05;      ///< error of friction with which a step may end: more sticks where it should slide [-]
-constexpr int kMostForFriction = 12;  ///< iterations for the sake of that error, of which each takes half of it or more: halves would cost more
+constexpr int kMostForFriction = 12;         ///< iterations where friction errs: each takes half of the error or more, so that halves would cost more
 constexpr double kSignificantFriction = 0.2;  ///< friction below which its error does not matter [referenceAcceleration]
 constexpr int kMaxLinearIterations = 1000;
 

@@ -11,7 +11,7 @@
 
 namespace sim {
 
-/// By which springs of contact and friction know how far a step takes a mass: h where that is h² F/m.
+/// Length of a step by which springs of contact and friction know how far it takes a mass: h where that is h² F/m.
 double VertexSolver::stepOfInertia(double h) const { return isSecondOrder_ ? h / std::numbers::sqrt2 : h; }
 
 /// How far the mean of forces is behind the last of them, at the start of a step of h, relative to the last step: it is by a step.
@@ -111,7 +111,7 @@ void VertexSolver::findRates(double h, FabricState& state)
     else findMeanRates(h, state);
 }
 
-/// Of backward Euler, and of a state to which no forces led: those of the way.
+/// Rates of backward Euler, and of a state to which no forces led: those of the way.
 void VertexSolver::findMeanRates(double h, FabricState& state) const
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {

@@ -21,8 +21,8 @@ constexpr double kExpectedMove = 0.3;    ///< farthest that forces are expected 
 constexpr double kExpectedTurn = 0.1;    ///< farthest that twist angles are expected to go on as they did [rad]
 constexpr double kFractionTwice = 0.95;  ///< accepted part of the moves below which, twice running, a step is halved [-]
 constexpr double kFractionOnce = 0.7;    ///< accepted part of the moves below which a step is halved at once [-]
-constexpr int kDrivenHalvings = 2;       ///< of steps in which something drives the fabric, at least as many as these may be made
-constexpr int kMaxListBuilds = 25;       ///< per attempt; more ask for halves
+constexpr int kDrivenHalvings = 2;       ///< halvings of a step in which something drives the fabric, that may be made at least
+constexpr int kMaxListBuilds = 25;       ///< builds of the candidate list in an attempt at most; more ask for halves
 constexpr double kMuchGain = 0.1;        ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
 
 }  // namespace

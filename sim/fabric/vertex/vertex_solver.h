@@ -64,7 +64,7 @@ class VertexSolver final : public FabricIntegrator {
     /// What limit made of move_.
     struct LimitedMove {
         bool isSafe = false;                                       ///< always, where solids rest
-        std::optional<FabricContact::LimitedMoves> betweenFabric;  ///< where there is contact
+        std::optional<FabricContact::LimitedMoves> betweenFabric;  ///< limits between fabric and fabric, where there is contact
     };
     /// One attempt at a part; false if it should be redone in halves.
     bool trySubstep(const Part& part);
@@ -157,7 +157,7 @@ class VertexSolver final : public FabricIntegrator {
     FabricSettings settings_;
     bool isSecondOrder_;  ///< fabric.integrator
     VertexSystem system_;
-    std::optional<ElasticStep> elasticStep_;  ///< of the attempt under way
+    std::optional<ElasticStep> elasticStep_;  ///< rods and shells in the attempt under way
     std::optional<Cohesion> cohesion_;
     std::optional<FabricContact> contact_;
     FabricObstacles obstacles_;

@@ -182,7 +182,7 @@ class VertexSystem {
     };
     struct Incidence {
         int pair;
-        int place;  ///< among the pair's vertices
+        int place;  ///< number among the pair's vertices
     };
     /// A vertex on a strand whose side of a pair is not in S but for its own diagonal.
     struct UncoupledVertex {
