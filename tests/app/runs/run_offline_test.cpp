@@ -89,27 +89,6 @@ TEST(RunOffline, ForcesAreToldByNameInStepsAndReport)
     EXPECT_NEAR(wall.at("largest_torque").get<double>(), 90.0, 1e-12);
 }
 
-TEST(RunOffline, ForcesOfTwoStepsAreLargestTogetherWhereTheFirstIsReflected)
-{
-    const auto pushed = [](double push) {
-        sim::Forces forces;
-        forces.obstacles.resize(1);
-        forces.begin(0.5);
-        forces.obstacles[0].liquid = sim::Impulse::at(sim::Vec3::UnitY(), {0.5 * push, 0.0, 0.0});
-        return forces;
-    };
-    ForceTotals totals;
-    totals.add(pushed(10.0), true);
-    totals.add(pushed(2.0), false);
-    totals.add(pushed(5.0), false);
-    ForceNames names;
-    names.obstacles = {"wall"};
-    const auto wall = forcesJson(names, totals).at("obstacles").at("wall").at("liquid");
-    EXPECT_EQ(wall.at("largest_force"), 6.0);
-    EXPECT_EQ(wall.at("largest_torque"), 6.0);
-    EXPECT_NEAR(wall.at("mean_force").at(0).get<double>(), 17.0 / 3.0, 1e-12);
-}
-
 TEST(RunOffline, WithoutSolidsAndFabricNothingIsSaidOfForces)
 {
     TemporaryFolder folder;

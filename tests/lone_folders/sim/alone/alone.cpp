@@ -1,0 +1,1 @@
+// What check_mirror is to find: nothing tests this.
