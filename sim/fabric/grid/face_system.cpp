@@ -48,7 +48,7 @@ void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoa
     findMissingParts();
 }
 
-void FaceSystem::assemble()
+void FaceSystem::assemble(const VertexStiffness::Assembled&)
 {
     findNodalForces();
     stiffness_.factorTwist(inertia_, h_);

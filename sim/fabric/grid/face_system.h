@@ -58,8 +58,8 @@ class FaceSystem {
     /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
     void begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
-    /// Takes stiffness and contact as they are assembled, which stay until the solve is done.
-    void assemble();
+    /// Takes the stiffness, which stays so until the solve is done, and contact as it is assembled.
+    void assemble(const VertexStiffness::Assembled&);
 
     std::size_t edges() const { return fabric_.edges.size(); }
     int blocks() const { return grid_->count(); }

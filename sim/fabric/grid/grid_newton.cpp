@@ -46,15 +46,16 @@ void GridFabricSolver::solveAgain(const FaceTolerance& tolerance, const FabricSt
 
 /// Elements that are pressed by the solved motion though nobody expected it, by the fabric's own forces, would store energy that nothing has
 /// given: with them among the others the step is solved again. Leaves in motion_ what was solved for.
-void GridFabricSolver::addOmittedContacts(double h, double kinetic, const FaceTolerance& tolerance, const FabricState& state, FabricReport& report)
+void GridFabricSolver::addOmittedContacts(const Solve& of, const FaceTolerance& tolerance, const VertexStiffness::Assembled& stiffness,
+                                          FabricReport& report)
 {
     for (int repeat = 0;; ++repeat) {
         system_.findMotion(velocity_.faces, motion_);
-        const PredictedMotion found = predictionOn(h, tolerance);
-        if (repeat == kMostRepeats || contact_.omittedEnergy(found) <= kOmittedEnergy * kinetic) return;
-        contact_.activate(state, found);
-        system_.assemble();
-        solveAgain(tolerance, state, report);
+        const PredictedMotion found = predictionOn(of.h, tolerance);
+        if (repeat == kMostRepeats || contact_.omittedEnergy(found) <= kOmittedEnergy * of.kinetic) return;
+        contact_.activate(of.state, found);
+        system_.assemble(stiffness);
+        solveAgain(tolerance, of.state, report);
     }
 }
 
@@ -117,14 +118,16 @@ void GridFabricSolver::shortenMotion(const Solve& of, double before)
 
 void GridFabricSolver::solve(const Solve& of, FabricReport& report)
 {
-    const auto& [h, gravity, state, loads, wanted, kinetic] = of;
-    FaceTolerance tolerance = wanted;
+    const double h = of.h, kinetic = of.kinetic;
+    const FabricState& state = of.state;
+    FaceTolerance tolerance = of.tolerance;
+    VertexStiffness::Assembled stiffness = of.stiffness;
     double least = std::numeric_limits<double>::infinity();
     start_ = velocity_.faces;
     solveOnce(tolerance, expectedChange(state), report);
     const double before = elastic_.at(state, stiffness_.rods(), stiffness_.shells()).elastic();
     for (int n = 1;; ++n) {
-        if (settings_.contact) addOmittedContacts(h, kinetic, tolerance, state, report);
+        if (settings_.contact) addOmittedContacts(of, tolerance, stiffness, report);
         AlignedArray<double>& u = system_.vertexVelocities(velocity_);
         const double reached = tryMove(h, u, state);
         // What elastic forces gave, against what they had, and what the solve's error did; backward Euler loses the energy of the change of
@@ -134,8 +137,8 @@ void GridFabricSolver::solve(const Solve& of, FabricReport& report)
         if (errorWork_ > kNegligibleGain * kinetic) tolerance.target *= kTighter, tolerance.acceptable *= kTighter;
         if (isSolved_ && gain < least) least = gain, leastGain_ = velocity_;
         if (n == kMostNewton) break;
-        stiffness_.assembleAt(trial_, h, u);
-        system_.assemble();
+        stiffness = stiffness_.assembleAt(stiffness, trial_, h, u);
+        system_.assemble(stiffness);
         solveAgain(tolerance, state, report);
     }
     if (least < std::numeric_limits<double>::infinity()) velocity_ = leastGain_;

@@ -242,11 +242,11 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     }
 
     clock.start(Stage::FabricElastic);
-    stiffness_.assemble(state, t, h, touching, predicted_);
-    system_.assemble();
+    const VertexStiffness::Assembled stiffness = stiffness_.assemble(state, t, h, touching, predicted_);
+    system_.assemble(stiffness);
 
     clock.start(Stage::FabricSolve);
-    solve({h, gravity, state, loads, until, kinetic}, report);
+    solve({h, gravity, state, loads, until, stiffness, kinetic}, report);
     conserveMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();

@@ -106,8 +106,8 @@ void VertexStiffness::addConstraints()
     for (std::size_t i = 0; i < heldEdges_.size(); ++i) gradient_[unknowns_.twistSlot[heldEdges_[i]]] += heldTorque_[i];
 }
 
-void VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
-                               std::span<const Vec3> predicted)
+VertexStiffness::Assembled VertexStiffness::assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles,
+                                                     std::span<const Vec3> predicted)
 {
     springs_.clear();
     step_ = {rods_.startStep(state), shells_.startStep(state.x)};
@@ -123,15 +123,17 @@ void VertexStiffness::assemble(const FabricState& state, double t, double h, std
         springs_.push_back({v, share, contact.stiffness, contact.gradient - contact.stiffness * (h * ahead)});
     }
     addConstraints();
+    return Assembled();
 }
 
-void VertexStiffness::assembleAt(const FabricState& there, double h, AlignedArray<double>& u)
+VertexStiffness::Assembled VertexStiffness::assembleAt(const Assembled&, const FabricState& there, double h, AlignedArray<double>& u)
 {
     at_ = &there;
     std::ranges::copy(u, reached_.begin());
     assembleInternal(there, h);
     extrapolateToStart(h);
     addConstraints();
+    return Assembled();
 }
 
 /// Extrapolates the gradient at at_ linearly, by K, back to the start of the step.

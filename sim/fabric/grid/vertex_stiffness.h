@@ -26,13 +26,18 @@ class VertexStiffness {
     const Shells& shells() const { return shells_; }
     const VertexUnknowns& unknowns() const { return unknowns_; }
 
+    /// Token that forces and K are assembled for a step, until it is assembled anew.
+    class Assembled {
+        friend VertexStiffness;
+        Assembled() = default;
+    };
     /// Elastic and viscous forces at the state, which is that at the start of the step, and pins where they are at time
     /// t + h [s]. The contacts with obstacles must be those of positions x + h v of the `predicted` velocities [cm/s].
-    void assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles, std::span<const Vec3> predicted);
+    Assembled assemble(const FabricState& state, double t, double h, std::span<const ObstacleContact> obstacles, std::span<const Vec3> predicted);
 
     /// Assembles anew with the material's own forces as they are at `there`, which velocities u lead to in that step; relative to the start they
     /// are told nevertheless. `there` must stay until the next assemble.
-    void assembleAt(const FabricState& there, double h, AlignedArray<double>& u);
+    Assembled assembleAt(const Assembled&, const FabricState& there, double h, AlignedArray<double>& u);
 
     /// Energy gradient [dyn, dyn cm].
     const AlignedArray<double>& gradient() const { return gradient_; }

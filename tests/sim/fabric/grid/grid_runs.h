@@ -84,17 +84,17 @@ struct GridParts {
         for (std::size_t e = 0; e < contact.size(); ++e) points.push_back(contact.position(e, state.x));
         particles.toFaces(fabric.mass, points, state);
     }
-    void assembleForces(double h)
+    VertexStiffness::Assembled assembleForces(double h)
     {
         contact.assemble(state);
-        stiffness.assemble(state, 0.0, h, {}, {});
+        return stiffness.assemble(state, 0.0, h, {}, {});
     }
     void assemble(double h)
     {
         toFaces();
-        assembleForces(h);
+        const VertexStiffness::Assembled assembled = assembleForces(h);
         system.begin(particles, h);
-        system.assemble();
+        system.assemble(assembled);
     }
     /// Random numbers at faces with mass and twist angles.
     FaceVector randomVector(unsigned seed) const
