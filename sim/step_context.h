@@ -52,6 +52,8 @@ struct StepContext {
     bool hasObstacles() const { return !work.obstacles.empty(); }
     bool isFlip() const { return settings().transfer.method == TransferMethod::Flip; }
     bool isViscous() const { return plan.isWet && settings().liquid.solveViscosity && settings().liquid.viscosity > 0.0; }
+    /// May what holds liquid move?
+    bool isFrameMoving() const { return plan.isMixed() || work.obstacles.anyMoving(); }
     /// Does the free surface move without the inertia of stretching?
     bool correctsStrain() const { return plan.isWet && work.correctsStrain; }
     /// Are the velocities straight after P2G needed after the pressure?

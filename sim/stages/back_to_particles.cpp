@@ -20,9 +20,6 @@ double keptOver(double dt, double share, const TransferSettings& transfer)
 /// Share of their own velocities that particles keep [-].
 double flipRatio(const StepContext& c) { return c.isFlip() ? keptOver(c.dt, c.settings().transfer.flipRatio, c.settings().transfer) : 0.0; }
 
-/// May what holds liquid move?
-bool isFrameMoving(const StepContext& c) { return c.plan.isMixed() || c.work.obstacles.anyMoving(); }
-
 /// Velocities of the faces that particles read.
 BlockArray<double, 3>& velocityRead(StepContext& c) { return c.plan.reflects ? c.work.reflection.velocity : c.work.grid.faces.velocity; }
 
@@ -44,7 +41,7 @@ GatherSettings gatherSettings(const StepContext& c)
     if (c.plan.correctsVolume) settings.faceDisplacement = &work.volume.displacement;
     if (c.plan.reflects) settings.reflected = &work.reflection.velocity;
     if (c.settings().time.reflects()) settings.atMidpoint = &work.free.held;
-    if (c.settings().time.reflects() && isFrameMoving(c)) settings.frames = work.free.frames.data();
+    if (c.settings().time.reflects() && c.isFrameMoving()) settings.frames = work.free.frames.data();
     return settings;
 }
 
@@ -76,7 +73,7 @@ void findHeld(StepContext& c)
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
     findHeldCells(c.state.grid, *c.plan.heldBodies, work.free);
-    if (!isFrameMoving(c)) return;
+    if (!c.isFrameMoving()) return;
     const Vec3 ofFabric = c.plan.isMixed() ? meanVelocity(work.coupling->fabric, c.state.fabric) : Vec3(Vec3::Zero());
     findFrames(c.cut(), *c.plan.heldBodies, ofFabric, work.free);
 }

@@ -234,7 +234,8 @@ void reflect(StepContext& c)
     if (!c.plan.reflects) return;
     const StageScope scope(c.clock, Stage::Reflection);
     Workspace& work = c.work;
-    c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, *c.plan.pressure, work.reflection);
+    const MovingSurface surface{work.free.held, c.isFrameMoving() ? work.free.frames.data() : nullptr, c.settings().liquid.density};
+    c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, *c.plan.pressure, surface, work.reflection);
     restoreMomentum(c, work.reflection.velocity);
     c.energy.reflected(c.dt);
 }
