@@ -71,48 +71,10 @@ double noiseOf(const CutGrid& cut, double pitch, int b, int c)
     return kVolumeNoise + std::min(kMostCutOffNoise, kCutOffNoise * pitch * pitch * pitch * std::max(0.0, open / room - 1.0));
 }
 
-/// Means over the cells of a row and their neighbours that are of a kind, weighted 2 : 1 along each axis.
-/// @param kind  bits of the layer k of a block
-template <class Kind>
-Pack meanFillAround(const BlockGrid& grid, int block, const BlockArray<double>& fill, int j, int k, const Kind& kind)
-{
-    const int* neighbours = grid.neighbours(block).data();
-    const Pack zero = broadcast(0.0), one = broadcast(1.0);
-    Pack sum = zero, weights = zero;
-    for (int dk = -1; dk <= 1; ++dk)
-        for (int dj = -1; dj <= 1; ++dj) {
-            const int y = j + dj, z = k + dk;
-            Pack value[3], weight[3];
-            for (int side = -1; side <= 1; ++side) {
-                const int from = neighbours[neighbourIndex(side, y >> 3, z >> 3)];
-                const PackMask known = rowBits(kind(from, z & 7), y & 7);
-                value[side + 1] = select(known, loadPack(fill.block(from) + cellInBlock(0, y & 7, z & 7)), zero);
-                weight[side + 1] = select(known, one, zero);
-            }
-            const double across = (dj == 0 ? 2.0 : 1.0) * (dk == 0 ? 2.0 : 1.0);
-            const auto along = [](const Pack(&row)[3]) { return shiftRight(row[0], row[1]) + 2.0 * row[1] + shiftLeft(row[1], row[2]); };
-            sum += across * along(value);
-            weights += across * along(weight);
-        }
-    return sum / maxPack(weights, one);
-}
-
-/// Fills of a row of cells without the noise of single cells: means over those neighbours that are at least as deep, which are as full as the cell
-/// is where there is no error. Cells at the surface have their own.
-Pack meanFill(const BlockGrid& grid, const LiquidGrid& liquid, int b, int j, int k)
-{
-    const auto deepCells = [&](int block, int layer) { return liquid.deep.block(block)[layer]; };
-    const auto covered = [&](int block, int layer) { return liquid.inside.block(block)[layer] & ~liquid.surface.block(block)[layer]; };
-    Pack fill = loadPack(liquid.fill.block(b) + cellInBlock(0, j, k));
-    const PackMask deep = rowBits(deepCells(b, k), j), beside = rowBits(covered(b, k) & ~deepCells(b, k), j);
-    if (maskBits(beside) != 0) fill = select(beside, meanFillAround(grid, b, liquid.fill, j, k, covered), fill);
-    if (maskBits(deep) != 0) fill = select(deep, meanFillAround(grid, b, liquid.fill, j, k, deepCells), fill);
-    return fill;
-}
-
 /// Volume that a cell lacks (negative) or has too much, beyond noise, relative to its own.
-double volumeError(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, double fill, int b, int c)
+double volumeError(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
+    const double fill = liquid.fill.block(b)[c];
     if (fill > 1.0) return std::clamp(fill - 1.0 - noiseOf(cut, liquid.pitch, b, c), 0.0, kLargestError);
     const double least = leastFill(cut, gravity, liquid, b, c);
     return fill < least ? std::min(fill + noiseOf(cut, liquid.pitch, b, c) - least, 0.0) : 0.0;
@@ -123,14 +85,8 @@ void findSources(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liqu
     source.resize(cut.grid.count());
     parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        double* of = source.block(b);
-        for (int k = 0; k < kBlockEdge; ++k)
-            for (int j = 0; j < kBlockEdge; ++j) {
-                const int row = cellInBlock(0, j, k);
-                if (maskBits(rowBits(liquid.inside.block(b), j, k)) == 0) std::fill_n(of + row, kBlockEdge, 0.0);
-                else storePack(of + row, meanFill(cut.grid, liquid, b, j, k));
-            }
-        for (int c = 0; c < kBlockCells; ++c) of[c] = liquid.inside.test(b, c) ? strength * volumeError(cut, gravity, liquid, of[c], b, c) : 0.0;
+        for (int c = 0; c < kBlockCells; ++c)
+            source.block(b)[c] = liquid.inside.test(b, c) ? strength * volumeError(cut, gravity, liquid, b, c) : 0.0;
     });
 }
 
