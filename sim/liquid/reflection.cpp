@@ -11,9 +11,15 @@ namespace {
 /// Of the solve: it moves second-order errors only; less where pressures are asked for to less than 1e-6.
 double reflectionTolerance(const SolverSettings& solver) { return std::min(1.0e-3, 1.0e3 * solver.pressureTolerance); }
 
-/// ρ (u − U) (u − u*) along one axis for a row of cells, of the mean velocities on those of their two faces that the pressure acts on [dyn/cm^2].
-/// @param frame  component of U [cm/s]
-Pack powerAlong(int axis, double frame, const RowAccess& rows, const PressureSystem& system, int j, int k)
+/// Farthest that the surface is taken to move: the pressure beyond it is that of a straight line from the slope at the surface [cells].
+constexpr double kFarthest = 0.25;
+
+/// Means over a row of cells of what their two faces across one axis have, of those that the pressure acts on.
+struct MeanOnFaces {
+    Pack velocity;  ///< u [cm/s]
+    Pack change;    ///< u − u* [cm/s]
+};
+MeanOnFaces meanOnFaces(int axis, const RowAccess& rows, const PressureSystem& system, int j, int k)
 {
     const LiquidGrid& liquid = system.liquid();
     const auto& u = liquid.faces.velocity;
@@ -21,10 +27,9 @@ Pack powerAlong(int axis, double frame, const RowAccess& rows, const PressureSys
     const Pack under = select(rows.row(system.coefficient(), axis, j, k) > 0.0, one, zero);
     const Pack above = select(rows.above(system.coefficient(), axis, axis, j, k) > 0.0, one, zero);
     const Pack atLower = rows.row(u, axis, j, k), atUpper = rows.above(u, axis, axis, j, k);
-    const Pack by = under * (atLower - frame) + above * (atUpper - frame);
-    const Pack change = under * (atLower - rows.row(liquid.advected, axis, j, k)) + above * (atUpper - rows.above(liquid.advected, axis, axis, j, k));
-    const Pack faces = maxPack(under + above, one);
-    return by * change / (faces * faces);
+    const Pack before = under * rows.row(liquid.advected, axis, j, k) + above * rows.above(liquid.advected, axis, axis, j, k);
+    const Pack share = one / maxPack(under + above, one), now = under * atLower + above * atUpper;
+    return {share * now, share * (now - before)};
 }
 
 /// The pressure at the surface: the surface moves by dt u until the next step projects what is reflected now, and the impulse of a pressure that is 0
@@ -32,6 +37,7 @@ Pack powerAlong(int axis, double frame, const RowAccess& rows, const PressureSys
 void findPressureAtSurface(const CutGrid& cut, const PressureSystem& system, const MovingSurface& surface, BlockArray<double>& pressure)
 {
     const LiquidGrid& liquid = system.liquid();
+    const double perCell = surface.dt / (kFarthest * cut.grid.dx);
     pressure.resize(cut.grid.count());
     parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
         const int b = static_cast<int>(n);
@@ -40,10 +46,16 @@ void findPressureAtSurface(const CutGrid& cut, const PressureSystem& system, con
         for (int k = 0; k < kBlockEdge; ++k)
             for (int j = 0; j < kBlockEdge; ++j) {
                 const PackMask known = rowBits(liquid.surface.block(b), j, k) & rowBits(surface.held.block(b), j, k);
-                Pack power = broadcast(0.0);
+                Pack power = broadcast(0.0), squared = broadcast(0.0);
                 if (maskBits(known) != 0)
-                    for (int a = 0; a < kAxes; ++a) power += powerAlong(a, frame[a], rows, system, j, k);
-                storePack(pressure.block(b) + cellInBlock(0, j, k), select(known, surface.density * power, broadcast(0.0)));
+                    for (int a = 0; a < kAxes; ++a) {
+                        const MeanOnFaces mean = meanOnFaces(a, rows, system, j, k);
+                        const Pack moving = mean.velocity - frame[a];
+                        power += moving * mean.change;
+                        squared += moving * moving;
+                    }
+                const Pack bound = sqrtPack(maxPack(broadcast(1.0), squared * (perCell * perCell)));
+                storePack(pressure.block(b) + cellInBlock(0, j, k), select(known, surface.density * power / bound, broadcast(0.0)));
             }
     });
 }

@@ -15,7 +15,8 @@ struct ReflectionWorkspace {
 struct MovingSurface {
     const BlockBits<>& held;  ///< its cells
     const Vec3* frames;       ///< velocities by blocks of what holds it [cm/s]; null where all rests
-    double density;           ///< of the liquid [g/cm^3]
+    double density;           ///< density of the liquid [g/cm^3]
+    double dt;                ///< [s]
 };
 
 /// Advection-reflection after Zehnder, Narain and Thomaszewski 2018, for liquid with a surface and with weight

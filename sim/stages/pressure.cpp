@@ -234,7 +234,7 @@ void reflect(StepContext& c)
     if (!c.plan.reflects) return;
     const StageScope scope(c.clock, Stage::Reflection);
     Workspace& work = c.work;
-    const MovingSurface surface{work.free.held, c.isFrameMoving() ? work.free.frames.data() : nullptr, c.settings().liquid.density};
+    const MovingSurface surface{work.free.held, c.isFrameMoving() ? work.free.frames.data() : nullptr, c.settings().liquid.density, c.dt};
     c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, *c.plan.pressure, surface, work.reflection);
     restoreMomentum(c, work.reflection.velocity);
     c.energy.reflected(c.dt);

@@ -42,8 +42,9 @@ double damBreakKeeps(const Transfer& transfer, double cfl, TimeIntegrator integr
 
 TEST(Reflection, KeepsInAQuarterOfTheStepsWhatPlainKeeps)
 {
-    // What other lengths of the steps change; 27 modes lose so little to the grid that the steps are most of it.
-    for (const auto& [transfer, noise] : {std::pair(kApic, 1.0e-3), std::pair(kPoly8, 1.0e-3), std::pair(kPoly27, 2.0e-3)})
+    // What other lengths of the steps change; 8 and 27 modes lose so little to the grid that the steps are most of it. They kept 2e-3 more while
+    // waves were pumped by the surface's motion (Waves.AreNotPumpedByStepsOfAnyLength).
+    for (const auto& [transfer, noise] : {std::pair(kApic, 1.0e-3), std::pair(kPoly8, 3.0e-3), std::pair(kPoly27, 4.0e-3)})
         EXPECT_GT(damBreakKeeps(transfer, 1.0, TimeIntegrator::Reflected), damBreakKeeps(transfer, 0.25, TimeIntegrator::Plain) - noise)
             << transfer.name;
 }
