@@ -267,7 +267,7 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     moveVertices(t, h, gravity, state, report);
     state.vertexSolver.onFabric.clear();
     if (obstacles_.empty()) state.onObstacles.clear();
-    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
+    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles, state.acceleration);
     state.gridSolver.sinceGather = h;
     stiffness_.rods().transportFrames(state);
 

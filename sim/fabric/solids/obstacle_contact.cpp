@@ -219,24 +219,34 @@ const std::vector<ObstacleContact>& FabricObstacles::findContacts(const Fabric& 
     return contacts_;
 }
 
-void FabricObstacles::storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held)
+void FabricObstacles::storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held,
+                                    std::span<Vec3> acceleration)
 {
     std::vector<std::optional<Vec3>>& force = keptForce_;
     force.resize(contacts_.size());
+    lostForce_.resize(contacts_.size());
     parallelFor(contacts_.size(), 256, [&](std::size_t i) {
         force[i].reset();
         const ObstacleContact& c = contacts_[i];
         const Point point = pointOf(fabric, c, x, start);
         const Body& body = bodies_[c.between[1]];
         const double overlap = point.reach - body.pose.distance(point.x);
+        const Vec3 n = body.pose.normal(point.x), all = c.gradient + c.stiffness * (point.x - c.place), acted = all - all.dot(n) * n;
+        lostForce_[i] = acted;
         if (!(overlap > 0.0)) return;
-        const Vec3 n = body.pose.normal(point.x), acted = c.gradient + c.stiffness * (point.x - c.place);
         const double bound = body.friction[point.material] * stiffnessOf(point, start) * overlap;
-        force[i] = atMost(bound, acted - acted.dot(n) * n);
+        force[i] = atMost(bound, acted);
+        lostForce_[i] -= *force[i];
     });
     held.clear();
     for (std::size_t i = 0; i < contacts_.size(); ++i)
         if (force[i]) held.add(contacts_[i].between, *force[i]);
+    if (acceleration.empty()) return;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const std::array<int, 3> v = contacts_[i].vertices();
+        const std::array<double, 3> share = contacts_[i].shares();
+        for (int k = 0; k < 3; ++k) acceleration[v[k]] += share[k] / start.mass[v[k]] * lostForce_[i];
+    }
 }
 
 double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const

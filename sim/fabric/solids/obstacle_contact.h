@@ -73,7 +73,9 @@ class FabricObstacles {
                                                      std::span<const NearestPoint> nearest = {});
     /// What of the friction is held at the end of the step, at x, where the contacts found last still touch: what acted there according to
     /// their gradients and stiffnesses.
-    void storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held);
+    /// @param acceleration  of the vertices by forces, if the next step expects these to go on: loses what friction did and no longer does, which
+    ///                      after a blow is most of it [cm/s^2]
+    void storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held, std::span<Vec3> acceleration = {});
     /// Energy that the contacts found last hold at x, in their penalty and in the friction that is held there [erg].
     double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const;
     /// Energy that the contacts found last hold at x in liquid bridges, 0 or below [erg].
@@ -127,6 +129,7 @@ class FabricObstacles {
     std::vector<std::vector<ObstacleContact>> ofChunk_;
     std::vector<ObstacleContact> contacts_;
     std::vector<std::optional<Vec3>> keptForce_;  ///< force of friction at them at the end of the step [dyn]
+    std::vector<Vec3> lostForce_;                 ///< what friction acted with in the step beyond that [dyn]
 };
 
 }  // namespace sim
