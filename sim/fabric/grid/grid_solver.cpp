@@ -109,13 +109,13 @@ void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, Fab
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * state.v[v]; });
     SolidLimitReport guarded;
-    if (solidLimiter_.limitBisected(t, h, state.x, mass_, move_, guarded)) {
+    const SolidLimiter::Limited limited = solidLimiter_.limitBisected(t, h, state.x, mass_, move_, guarded);
+    if (limited.moves == SolidLimiter::Limited::Moves::Changed) {
         move_.swap(wanted_);
         const Mechanical wanted = energyAfter(1.0, h, gravity, state);
         move_.swap(wanted_);
         // Solids and pins that move may give energy; and pins must get to where they are led.
-        const bool isDriven =
-            solidLimiter_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
+        const bool isDriven = limited.isDriven || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
         const double part = isDriven ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
         parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
             move_[v] *= part;
@@ -192,9 +192,7 @@ std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, doub
         reached_[v] = state.x[v] + move_[v];
         expectedMove_[v] = h * (motion_.velocity[v] + h * state.acceleration[v]);
     });
-    solidLimiter_.rest();
     const std::span<const NearestPoint> nearest = solidLimiter_.nearestPoints(reached_);
-    solidLimiter_.moveTo(t, t + h);
     from_ = state.x;
     FabricObstacles::Start start = obstacleStart(h, state);
     start.moves = expectedMove_;
