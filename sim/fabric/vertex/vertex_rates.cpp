@@ -42,10 +42,10 @@ Vec3 VertexSolver::limiterForce(std::size_t v, double h) const
 /// All contacts with what they do to their vertices, by their forces as Newton's last move reckoned with them; and the sum of those on each vertex.
 void VertexSolver::findContactForces(double h, std::vector<Vec3>& sum)
 {
-    const std::size_t pairs = contacts_ ? contacts_->size() : 0;
+    const std::size_t pairs = contacts_ ? contacts_->pairs().size() : 0;
     acting_.resize(pairs + touching_.size());
     parallelFor(pairs, 256, [&](std::size_t i) {
-        acting_[i] = {contacts_->vertices[i], contacts_->forcesOnVertices(i, -forceAtEnd(i)), Vec3::Zero()};
+        acting_[i] = {contacts_->pairs().vertices[i], contacts_->pairs().forcesOnVertices(i, -forceAtEnd(i)), Vec3::Zero()};
     });
     parallelFor(touching_.size(), 256, [&](std::size_t i) {
         const ObstacleContact& contact = touching_[i];

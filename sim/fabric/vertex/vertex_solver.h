@@ -33,7 +33,7 @@ class VertexSolver final : public FabricIntegrator {
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override;
     double deepestInObstacles(const FabricState& state) const override { return obstacles_.deepest(fabric_, state.x); }
     /// Active contacts of the last Newton iteration.
-    const ActiveContacts* contacts() const override { return contacts_; }
+    const ActiveContacts* contacts() const override { return contacts_ ? &contacts_->pairs() : nullptr; }
     double leastDistance() const;
 
  private:
@@ -171,7 +171,7 @@ class VertexSolver final : public FabricIntegrator {
     std::vector<int> nearestPin_;          ///< nearestPins of each vertex
 
     mutable ElasticEnergies elastic_;
-    const ActiveContacts* contacts_ = nullptr;       ///< contacts of fabric with fabric in the last Newton iteration
+    std::optional<FabricContact::Active> contacts_;  ///< contacts of fabric with fabric in the last Newton iteration, where any are near
     std::span<const ObstacleContact> touching_;      ///< contacts of fabric with obstacles in the last Newton iteration
     LimitReport limits_;                             ///< limits of contact between fabric in the attempt under way
     SolidLimitReport solidLimits_;                   ///< limits of contact with solids in the attempt under way
