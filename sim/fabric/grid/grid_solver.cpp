@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace sim {
 
@@ -180,7 +181,7 @@ void GridFabricSolver::storeAccelerations(double h, FabricState& state)
 
 /// Contacts with obstacles where the vertices would be at the end of the step, which is in front of them. motion_ must hold how they would go
 /// without the fabric's own forces; friction expects these to act on as they did.
-std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
+FabricObstacles::Found GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     obstacles_.moveTo(t, t + h);
     solidLimiter_.moveTo(t, t + h);
@@ -231,13 +232,14 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     const double kinetic =
         parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * (state.v[v].squaredNorm() + felt * felt * h * h); });
     state.springStep = springStepFor(state.springStep, h, state.stored.solids, kStiffeningGain * kinetic);
-    std::span<const ObstacleContact> touching;
+    std::optional<FabricObstacles::Found> onSolids;
     if (settings_.contact) {
         system_.findMotion(velocity_.faces, motion_);
-        if (!obstacles_.empty()) touching = touchObstacles(t, h, gravity, state);
+        if (!obstacles_.empty()) onSolids = touchObstacles(t, h, gravity, state);
         const PredictedMotion prediction = predictionOn(h, until);
         contact_.assemble(state, &prediction);
     }
+    const std::span<const ObstacleContact> touching = onSolids ? std::span(onSolids->contacts()) : std::span<const ObstacleContact>();
 
     clock.start(Stage::FabricElastic);
     const VertexStiffness::Assembled stiffness = stiffness_.assemble(state, t, h, touching, predicted_);
@@ -264,14 +266,14 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     }
     moveVertices(t, h, gravity, state, report);
     state.vertexSolver.onFabric.clear();
-    if (obstacles_.empty()) state.onObstacles.clear();
-    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles, state.acceleration);
+    if (!onSolids) state.onObstacles.clear();
+    else onSolids->storeFriction(state.x, obstacleStart(h, state), state.onObstacles, state.acceleration);
     state.gridSolver.sinceGather = h;
     stiffness_.rods().transportFrames(state);
 
     clock.start(Stage::FabricStrain);
     const ContactEnergy before = state.stored;
-    state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
+    state.stored.solids = onSolids ? onSolids->storedEnergy(state.x, obstacleStart(h, state), state.onObstacles) : 0.0;
     if (settings_.contact) state.stored.pressed = contact_.advectDirections(predictionOn(h, until), kOmittedEnergy * kinetic, state);
     if (booksEnergy_) bookVertices(gravity, before, state, *report.energyChanges);
     return report;

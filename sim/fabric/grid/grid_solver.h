@@ -33,7 +33,7 @@ class GridFabricSolver final : public FabricIntegrator {
 
  private:
     void begin(FabricState& state);
-    std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
+    FabricObstacles::Found touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     FabricObstacles::Start obstacleStart(double h, const FabricState& state) const { return {from_, mass_, state.onObstacles, h, state.springStep}; }
     /// Mechanical energy of the fabric [erg].
     struct Mechanical {

@@ -27,7 +27,7 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
         const std::array<Vec3, 4> onVertices = contacts_->pairs().forcesOnVertices(i, force);
         for (int k = 0; k < 4; ++k) gradient[v[k]] += onVertices[k];
     }
-    for (const ObstacleContact& contact : touching_) {
+    for (const ObstacleContact& contact : touching()) {
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         Vec3 moved = Vec3::Zero();
@@ -56,7 +56,7 @@ std::vector<char> VertexSolver::heldBySolids() const
     for (const Vec2i& edge : fabric_.edges.vertices) hold(edge);
     for (const Vec3i& face : fabric_.faces.vertices) hold(face);
     for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) hold(contacts_->pairs().vertices[i]);
-    for (const ObstacleContact& contact : touching_) hold(contact.vertices());
+    for (const ObstacleContact& contact : touching()) hold(contact.vertices());
     return held;
 }
 

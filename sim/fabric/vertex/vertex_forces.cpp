@@ -44,7 +44,7 @@ void VertexSolver::reportForces(double h, const FabricState& state) const
 /// Penalty and friction, on solids and between pieces of the scene.
 void VertexSolver::reportContacts(double h, const FabricState& state) const
 {
-    for (const ObstacleContact& contact : touching_) {
+    for (const ObstacleContact& contact : touching()) {
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         const Vec3 place = share[0] * state.x[v[0]] + share[1] * state.x[v[1]] + share[2] * state.x[v[2]];

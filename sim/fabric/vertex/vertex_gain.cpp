@@ -22,8 +22,9 @@ ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, con
 {
     ContactEnergy stored;
     if (contacts_) stored = contacts_->storedEnergy(x, held.vertexSolver.onFabric);
-    stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
-    stored.bridges += obstacles_.bridgeEnergy(fabric_, x);
+    if (!solids_) return stored;
+    stored.solids = solids_->storedEnergy(x, obstacleStart(h), held.onObstacles);
+    stored.bridges += solids_->bridgeEnergy(x);
     return stored;
 }
 

@@ -11,7 +11,7 @@ namespace sim {
 void VertexSolver::findGroups(FabricGroups& groups) const
 {
     for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) groups.joinVertices(contacts_->pairs().vertices[i]);
-    for (const ObstacleContact& contact : touching_)
+    for (const ObstacleContact& contact : touching())
         for (int v : contact.vertices()) groups.hold(v);
     for (int v : solidLimits_.stopped) groups.hold(v);
 }

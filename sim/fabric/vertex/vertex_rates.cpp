@@ -43,12 +43,12 @@ Vec3 VertexSolver::limiterForce(std::size_t v, double h) const
 void VertexSolver::findContactForces(double h, std::vector<Vec3>& sum)
 {
     const std::size_t pairs = contacts_ ? contacts_->pairs().size() : 0;
-    acting_.resize(pairs + touching_.size());
+    acting_.resize(pairs + touching().size());
     parallelFor(pairs, 256, [&](std::size_t i) {
         acting_[i] = {contacts_->pairs().vertices[i], contacts_->pairs().forcesOnVertices(i, -forceAtEnd(i)), Vec3::Zero()};
     });
-    parallelFor(touching_.size(), 256, [&](std::size_t i) {
-        const ObstacleContact& contact = touching_[i];
+    parallelFor(touching().size(), 256, [&](std::size_t i) {
+        const ObstacleContact& contact = touching()[i];
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         const Vec3 force = -forceAtEnd(contact), place = share[0] * start_.x[v[0]] + share[1] * start_.x[v[1]] + share[2] * start_.x[v[2]];

@@ -176,7 +176,8 @@ void VertexSolver::storeContacts(double h, FabricState& state)
 {
     if (contacts_) contacts_->storeFriction(state.x, state.vertexSolver.onFabric);
     else state.vertexSolver.onFabric.clear();
-    obstacles_.storeFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
+    if (solids_) solids_->storeFriction(state.x, obstacleStart(h), state.onObstacles);
+    else state.onObstacles.clear();
     state.stored = contactEnergy(h, state.x, state);
 }
 
