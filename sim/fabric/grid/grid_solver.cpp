@@ -227,26 +227,27 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     const FaceTolerance until{tolerance, kMaxIterations, kAcceptable * felt * h, kMostIterations};
     clock.start(Stage::FabricContact);
-    system_.begin(particles_, h, loads);
+    const FaceSystem::Begun begun = system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
     const double kinetic =
         parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * (state.v[v].squaredNorm() + felt * felt * h * h); });
     state.springStep = springStepFor(state.springStep, h, state.stored.solids, kStiffeningGain * kinetic);
     std::optional<FabricObstacles::Found> onSolids;
+    ElementContact::Assembled contact = contact_.assembleNone();
     if (settings_.contact) {
-        system_.findMotion(velocity_.faces, motion_);
+        system_.findMotion(begun, velocity_.faces, motion_);
         if (!obstacles_.empty()) onSolids = touchObstacles(t, h, gravity, state);
         const PredictedMotion prediction = predictionOn(h, until);
-        contact_.assemble(state, &prediction);
+        contact = contact_.assemble(state, &prediction);
     }
     const std::span<const ObstacleContact> touching = onSolids ? std::span(onSolids->contacts()) : std::span<const ObstacleContact>();
 
     clock.start(Stage::FabricElastic);
     const VertexStiffness::Assembled stiffness = stiffness_.assemble(state, t, h, touching, predicted_);
-    system_.assemble(stiffness);
+    system_.assemble(begun, stiffness, contact);
 
     clock.start(Stage::FabricSolve);
-    solve({h, gravity, state, loads, until, stiffness, kinetic}, report);
+    solve({h, gravity, state, loads, until, begun, stiffness, contact, kinetic}, report);
     conserveMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
