@@ -78,7 +78,7 @@ struct Driven {
         move(clock);
         for (int newton = 0; newton < 2; ++newton) {
             const ActiveContacts* contacts = nullptr;
-            charge([&] { contacts = &contact.activeAt(x, clock); });
+            charge([&] { contacts = &contact.activeAt(x, clock).pairs(); });
             active = contacts->size();
             clock.stop();
             wish(*contacts);

@@ -156,7 +156,7 @@ void CandidateList::markDirtyPrimitives()
     });
 }
 
-void CandidateList::moved()
+void CandidateList::moved(const CoveredMoves&)
 {
     parallelFor(sweep_.from.size(), kGrain, [&](std::size_t v) {
         sweep_.from.set(v, sweep_.from[v] + expected(v));

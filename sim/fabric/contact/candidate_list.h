@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/contact/candidate_pool.h"
+#include "sim/fabric/contact/covered_moves.h"
 
 #include <limits>
 #include <span>
@@ -24,9 +25,9 @@ class CandidateList {
     /// @return whether it had to be built
     bool coverPositions(std::span<const Vec3> x) { return cover(x, {}); }
     /// Makes it good for the moves u from x as well [cm].
-    bool coverMoves(std::span<const Vec3> x, std::span<const Vec3> u) { return cover(x, u); }
-    /// The fabric has been moved by the moves last covered.
-    void moved();
+    CoveredMoves coverMoves(std::span<const Vec3> x, std::span<const Vec3> u) { return CoveredMoves(cover(x, u)); }
+    /// The fabric has been moved by the moves that were covered last.
+    void moved(const CoveredMoves&);
     /// Brings distances up to x.
     void measure(std::span<const Vec3> x);
 

@@ -28,19 +28,20 @@ void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> m
 
 FabricContact::LimitedMoves FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)
 {
-    return LimitedMoves(parts_->limiter.limit(x, u, parts_->list, report, clock));
+    const Limiter::Limited limited = parts_->limiter.limit(x, u, parts_->list, report, clock);
+    return {limited.moves, limited.wereChanged};
 }
 
-void FabricContact::moved(const LimitedMoves&) { parts_->list.moved(); }
+void FabricContact::moved(const LimitedMoves& moves) { parts_->list.moved(moves.covered_); }
 
-const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected)
+FabricContact::Active FabricContact::activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected)
 {
     Parts& p = *parts_;
     clock.start(Stage::FabricCandidates);
     p.list.coverPositions(x);
     if (p.list.empty()) {
         p.resizeActive(0);
-        return p.active;
+        return {p, p.active};
     }
     clock.start(Stage::FabricContact);
     p.list.measure(x);
@@ -51,7 +52,7 @@ const ActiveContacts& FabricContact::activeAt(std::span<const Vec3> x, StageCloc
     p.describe(x, expected, p.list.edgePairs(), p.edgePairs, 0);
     p.describe(x, expected, p.list.facePairs(), p.facePairs, p.edgePairs.size());
     if (p.bridges()) p.findBridges(x);
-    return p.active;
+    return {p, p.active};
 }
 
 void FabricContact::Parts::findActive(const CandidatePool& pairs, std::vector<PairPlace>& found)
@@ -130,7 +131,7 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
     active.frictionStiffness[slot] = sideways.along;
 }
 
-ContactEnergy FabricContact::storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const
+ContactEnergy FabricContact::Active::storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const
 {
     const Parts& p = *parts_;
     const auto sumOver = [&](auto&& of) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/fabric/cohesion.h"
+#include "sim/fabric/contact/covered_moves.h"
 #include "sim/fabric/fabric.h"
 #include "sim/settings.h"
 #include "sim/stage.h"
@@ -88,6 +89,8 @@ struct LimitReport {
 /// shape where that is nearer than the radii; moves are limited pair by pair, so that no committed move ever crosses.
 /// Costs nothing per step but the check of the candidate list where no pair is near.
 class FabricContact {
+    struct Parts;
+
  public:
     /// @param cohesion  of liquid between wet fabric, taken up before each step; null without
     explicit FabricContact(const Fabric& fabric, const Cohesion* cohesion = nullptr);
@@ -103,33 +106,42 @@ class FabricContact {
 
      private:
         friend FabricContact;
-        explicit LimitedMoves(bool wereChanged) : wereChanged_(wereChanged) {}
+        LimitedMoves(const contact::CoveredMoves& covered, bool wereChanged) : covered_(covered), wereChanged_(wereChanged) {}
+        contact::CoveredMoves covered_;
         bool wereChanged_;
     };
     /// Shortens the moves u from x [cm], pair by pair, until going along them in a straight line is safe. Pinned vertices keep theirs
     /// unless everything has to be scaled.
     LimitedMoves limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock);
     /// The fabric has been moved from x by the moves u that were limited last.
-    void moved(const LimitedMoves&);
+    void moved(const LimitedMoves& moves);
+    /// Pairs that act where they were looked for, until others are.
+    class Active {
+     public:
+        const ActiveContacts& pairs() const { return *pairs_; }
+        /// How far friction that acted between the pairs, up to x, is from what the normal forces that acted there have it, both according to
+        /// their forces and stiffnesses: over all pairs, relative to what they can hold, and no less than to what gives their vertices an
+        /// acceleration [cm/s^2]. Forces at x hardly tell: a small move changes what presses by as much as the load [-].
+        double frictionError(std::span<const Vec3> x, double acceleration) const;
+        /// What of their friction is held at the end of the step, at x: what acted there according to their forces and stiffnesses.
+        void storeFriction(std::span<const Vec3> x, FrictionForces& held) const;
+        /// Energy that they hold at x, in what presses and in the friction that is held there.
+        ContactEnergy storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const;
+
+     private:
+        friend FabricContact;
+        Active(Parts& parts, const ActiveContacts& pairs) : parts_(&parts), pairs_(&pairs) {}
+        Parts* parts_;
+        const ActiveContacts* pairs_;
+    };
     /// Pairs that act at x, with force and stiffness.
     /// @param expected  moves of the vertices since the start of the step if forces act on as they did [cm], where x is a prediction
-    const ActiveContacts& activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});
-    /// How far friction that acted between the pairs found last, up to x, is from what the normal forces that acted there have it, both
-    /// according to their forces and stiffnesses: over all pairs, relative to what they can hold, and no less than to what gives their
-    /// vertices an acceleration [cm/s^2]. Forces at x hardly tell: a small move changes what presses by as much as the load [-].
-    double frictionError(std::span<const Vec3> x, double acceleration);
-    /// What of the friction of the pairs found last is held at the end of the step, at x: what acted there according to their forces and
-    /// stiffnesses.
-    void storeFriction(std::span<const Vec3> x, FrictionForces& held);
-
-    /// Energy that the pairs found last hold at x, in what presses and in the friction that is held there.
-    ContactEnergy storedEnergy(std::span<const Vec3> x, const FrictionForces& held) const;
+    Active activeAt(std::span<const Vec3> x, StageClock& clock, std::span<const Vec3> expected = {});
 
     std::size_t candidates() const;  ///< pairs in the list
     double leastDistance() const;    ///< least distance of the candidates, relative to that at which they may touch; infinite without any [-]
 
  private:
-    struct Parts;
     std::unique_ptr<Parts> parts_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 namespace sim::contact {
 
@@ -23,15 +24,16 @@ std::array<Vec3, 4> atVertices(const std::array<int, 4>& v, std::span<const Vec3
 
 Limiter::Limiter(const Primitives& primitives) : primitives_(primitives) { motion_.resize(primitives.count()); }
 
-bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
+Limiter::Limited Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     constexpr int kFilterRounds = 5, kBlendRounds = 8;
     bool changed = true, anyChanged = false;  // the moves, since they were looked at, and at all
+    std::optional<CoveredMoves> covered;
     for (int round = 0; round < kFilterRounds; ++round) {
-        cover(x, u, list, report, clock);
-        if (list.empty()) return anyChanged;
+        covered = cover(x, u, list, report, clock);
+        if (list.empty()) return {*covered, anyChanged};
         findApproaching(x, u, list);
-        if (approaching_.empty()) return anyChanged;
+        if (approaching_.empty()) return {*covered, anyChanged};
         const int sweeps = projectApproach(u, changed);
         anyChanged = anyChanged || changed;
         if (sweeps == 1) break;
@@ -39,27 +41,29 @@ bool Limiter::limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& l
     double fraction = 1.0;
     for (int round = 0; round < kBlendRounds; ++round) {
         if (changed || round > 0) {
-            cover(x, u, list, report, clock);
+            covered = cover(x, u, list, report, clock);
             findApproaching(x, u, list);
         }
         fraction = measureFractions(x, u);
-        if (fraction >= 1.0) return anyChanged;
+        if (fraction >= 1.0) return {*covered, anyChanged};
         anyChanged = true;
         if (round + 1 < kBlendRounds) report.blends += averageFailingPairs(u);
     }
     parallelFor(u.size(), 4096, [&](std::size_t v) { u[v] *= kSafeShare * fraction; });
     ++report.globalScalings;
-    return true;
+    return {*covered, true};
 }
 
 /// Whatever changed the moves may have led them to where the list was not looked up.
-void Limiter::cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
+CoveredMoves Limiter::cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock)
 {
     clock.start(Stage::FabricCandidates);
-    report.candidateListBuilds += list.coverMoves(x, u);
-    if (list.empty()) return;
+    const CoveredMoves covered = list.coverMoves(x, u);
+    report.candidateListBuilds += covered.wereSearched();
+    if (list.empty()) return covered;
     clock.start(Stage::FabricContact);
     list.measure(x);
+    return covered;
 }
 
 void Limiter::motionOfPrimitives(std::span<const Vec3> u)

@@ -15,8 +15,12 @@ class Limiter {
 
     /// @param inverseMass  of each vertex; 0 = held [1/g]
     void setMasses(std::span<const double> inverseMass) { inverseMass_ = inverseMass; }
-    /// @return whether it changed any move
-    bool limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
+    /// Moves that are safe, and whether they had to be changed.
+    struct Limited {
+        CoveredMoves moves;
+        bool wereChanged;
+    };
+    Limited limit(std::span<const Vec3> x, std::span<Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
 
  private:
     /// A pair that the move brings near.
@@ -31,7 +35,7 @@ class Limiter {
         double radii;       ///< sum of the two radii [cm]
     };
 
-    void cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
+    CoveredMoves cover(std::span<const Vec3> x, std::span<const Vec3> u, CandidateList& list, LimitReport& report, StageClock& clock);
     void findApproaching(std::span<const Vec3> x, std::span<const Vec3> u, const CandidateList& list);
     void motionOfPrimitives(std::span<const Vec3> u);
     void findApproaching(std::span<const Vec3> x, std::span<const Vec3> u, const CandidatePool& pairs);

@@ -94,7 +94,7 @@ double FabricContact::Parts::touchingMass()
     return parallelSum(mass.size(), [&](std::size_t v) { return isTouching[v] && inverseMass[v] > 0.0 ? mass[v] : 0.0; });
 }
 
-double FabricContact::frictionError(std::span<const Vec3> x, double acceleration)
+double FabricContact::Active::frictionError(std::span<const Vec3> x, double acceleration) const
 {
     Parts& p = *parts_;
     using Sums = std::array<double, 2>;
@@ -111,7 +111,7 @@ double FabricContact::frictionError(std::span<const Vec3> x, double acceleration
     return wrong > 0.0 ? wrong / std::max(bound, acceleration * p.touchingMass()) : 0.0;
 }
 
-void FabricContact::storeFriction(std::span<const Vec3> x, FrictionForces& held)
+void FabricContact::Active::storeFriction(std::span<const Vec3> x, FrictionForces& held) const
 {
     Parts& p = *parts_;
     std::vector<Vec3>& force = p.keptForce;

@@ -179,10 +179,17 @@ ElementContact::Stress ElementContact::assembleFace(std::size_t e, const FabricS
     return found;
 }
 
-void ElementContact::assemble(const FabricState& state, const PredictedMotion* prediction)
+ElementContact::Assembled ElementContact::assemble(const FabricState& state, const PredictedMotion* prediction)
 {
     parallelFor(size(), kElementsPerTask, [&](std::size_t e) { stress_[e] = assembleElement(e, state, prediction, local_[e]); });
     listActive();
+    return Assembled();
+}
+
+ElementContact::Assembled ElementContact::assembleNone()
+{
+    active_.clear();
+    return Assembled();
 }
 
 void ElementContact::listActive()
@@ -208,12 +215,13 @@ double ElementContact::omittedEnergy(const PredictedMotion& prediction) const
     return parallelSum(size(), [&](std::size_t e) { return stress_[e].isActive ? 0.0 : std::max(0.0, energyAfter(e, prediction)); });
 }
 
-void ElementContact::activate(const FabricState& state, const PredictedMotion& prediction)
+ElementContact::Assembled ElementContact::activate(const Assembled&, const FabricState& state, const PredictedMotion& prediction)
 {
     parallelFor(size(), kElementsPerTask, [&](std::size_t e) {
         if (!stress_[e].isActive) stress_[e] = assembleElement(e, state, &prediction, local_[e]);
     });
     listActive();
+    return Assembled();
 }
 
 double ElementContact::energy() const

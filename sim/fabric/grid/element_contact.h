@@ -40,17 +40,24 @@ class ElementContact {
     /// Quadrature point of an element [cm].
     Vec3 position(std::size_t e, std::span<const Vec3> x) const { return mean(e, x); }
 
+    /// Token that contact is assembled for a step, until it is assembled anew.
+    class Assembled {
+        friend ElementContact;
+        Assembled() = default;
+    };
     /// Energies, stresses and stiffnesses at the present directions and positions. Given a prediction, shear has the
     /// secant of what friction holds in the end, and elements that would accelerate nothing are left out: an elastic
     /// tangent makes what is barely pressed stick, where the return after the step lets it slide.
-    void assemble(const FabricState& state, const PredictedMotion* prediction = nullptr);
+    Assembled assemble(const FabricState& state, const PredictedMotion* prediction = nullptr);
+    /// No element acts.
+    Assembled assembleNone();
     /// Contact energy after this prediction of the elements that assemble() left out because it expected no compression of them [erg]. They
     /// would be compressed without resistance.
     double omittedEnergy(const PredictedMotion& prediction) const;
     /// Energy that all elements would gain by this motion, as far as advectDirections() lets them keep it [erg].
     double gain(const PredictedMotion& moved) const;
     /// Assembles those elements too, with this prediction.
-    void activate(const FabricState& state, const PredictedMotion& prediction);
+    Assembled activate(const Assembled&, const FabricState& state, const PredictedMotion& prediction);
     /// Elements whose contact is active and significant, ascending.
     const std::vector<int>& active() const { return active_; }
     double energy() const;  ///< [erg], of the last assemble

@@ -29,7 +29,7 @@ void FaceSystem::setAbsorbed(std::span<const double> absorbed)
     parallelFor(edges(), 4096, [&](std::size_t e) { inertia_[e] = twistInertia(fabric_, absorbed, e); });
 }
 
-void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoads* loads)
+FaceSystem::Begun FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoads* loads)
 {
     particles_ = &particles;
     grid_ = &particles.grid();
@@ -46,9 +46,10 @@ void FaceSystem::begin(const FabricParticles& particles, double h, const FaceLoa
     rows_.find(mass_);
     onVertices_.resize(particles.vertices().size());
     findMissingParts();
+    return Begun();
 }
 
-void FaceSystem::assemble(const VertexStiffness::Assembled&)
+void FaceSystem::assemble(const Begun&, const VertexStiffness::Assembled&, const ElementContact::Assembled&)
 {
     findNodalForces();
     stiffness_.factorTwist(inertia_, h_);
@@ -249,7 +250,7 @@ void FaceSystem::gatherVertices(const BlockArray<double, 3>& u, std::span<Vec3> 
     });
 }
 
-void FaceSystem::findMotion(const BlockArray<double, 3>& u, FabricMotion& motion)
+void FaceSystem::findMotion(const Begun&, const BlockArray<double, 3>& u, FabricMotion& motion)
 {
     motion.velocity.resize(fabric_.vertexCount());
     gatherVertices(u, motion.velocity);

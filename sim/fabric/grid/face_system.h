@@ -55,11 +55,16 @@ class FaceSystem {
     /// Sets the liquid that the yarns hold, which adds to the inertia of their twist.
     /// @param absorbed  of each vertex [g]
     void setAbsorbed(std::span<const double> absorbed);
+    /// Token that masses and weights are those of a step, until the next begins.
+    class Begun {
+        friend FaceSystem;
+        Begun() = default;
+    };
     /// Takes masses and weights from what toFaces left.
     /// @param loads  of liquid, whose drag then counts as mass; or null
-    void begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
-    /// Takes the stiffness, which stays so until the solve is done, and contact as it is assembled.
-    void assemble(const VertexStiffness::Assembled&);
+    Begun begin(const FabricParticles& particles, double h, const FaceLoads* loads = nullptr);
+    /// Takes stiffness and contact, which stay so until the solve is done.
+    void assemble(const Begun&, const VertexStiffness::Assembled&, const ElementContact::Assembled&);
 
     std::size_t edges() const { return fabric_.edges.size(); }
     int blocks() const { return grid_->count(); }
@@ -88,8 +93,8 @@ class FaceSystem {
     double contactWork(const FaceVector& u);
     /// u at the vertices.
     void gatherVertices(const BlockArray<double, 3>& u, std::span<Vec3> atVertices);
-    /// What u does to vertices and elements, those without full stencils as in multiply. Of the last begin().
-    void findMotion(const BlockArray<double, 3>& u, FabricMotion& motion);
+    /// What u does to vertices and elements, those without full stencils as in multiply.
+    void findMotion(const Begun&, const BlockArray<double, 3>& u, FabricMotion& motion);
 
  private:
     void clearInactive(BlockArray<double, 3>& u) const;

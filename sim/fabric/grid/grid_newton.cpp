@@ -46,15 +46,16 @@ void GridFabricSolver::solveAgain(const FaceTolerance& tolerance, const FabricSt
 
 /// Elements that are pressed by the solved motion though nobody expected it, by the fabric's own forces, would store energy that nothing has
 /// given: with them among the others the step is solved again. Leaves in motion_ what was solved for.
-void GridFabricSolver::addOmittedContacts(const Solve& of, const FaceTolerance& tolerance, const VertexStiffness::Assembled& stiffness,
-                                          FabricReport& report)
+ElementContact::Assembled GridFabricSolver::addOmittedContacts(const Solve& of, const FaceTolerance& tolerance,
+                                                               const VertexStiffness::Assembled& stiffness, ElementContact::Assembled contact,
+                                                               FabricReport& report)
 {
     for (int repeat = 0;; ++repeat) {
-        system_.findMotion(velocity_.faces, motion_);
+        system_.findMotion(of.begun, velocity_.faces, motion_);
         const PredictedMotion found = predictionOn(of.h, tolerance);
-        if (repeat == kMostRepeats || contact_.omittedEnergy(found) <= kOmittedEnergy * of.kinetic) return;
-        contact_.activate(of.state, found);
-        system_.assemble(stiffness);
+        if (repeat == kMostRepeats || contact_.omittedEnergy(found) <= kOmittedEnergy * of.kinetic) return contact;
+        contact = contact_.activate(contact, of.state, found);
+        system_.assemble(of.begun, stiffness, contact);
         solveAgain(tolerance, of.state, report);
     }
 }
@@ -98,7 +99,7 @@ double GridFabricSolver::gainOfMotion(const Solve& of, double before)
     const VertexStiffness::Work holds = stiffness_.workOfConstraints(of.h, u);
     double contact = 0.0;
     if (settings_.contact) {
-        system_.findMotion(velocity_.faces, motion_);
+        system_.findMotion(of.begun, velocity_.faces, motion_);
         contact = contact_.gain(predictionOn(of.h, of.tolerance));
     }
     const OnFaces onFaces = workOnFaces(of.h, of.gravity, of.state, of.loads);
@@ -122,12 +123,13 @@ void GridFabricSolver::solve(const Solve& of, FabricReport& report)
     const FabricState& state = of.state;
     FaceTolerance tolerance = of.tolerance;
     VertexStiffness::Assembled stiffness = of.stiffness;
+    ElementContact::Assembled contact = of.contact;
     double least = std::numeric_limits<double>::infinity();
     start_ = velocity_.faces;
     solveOnce(tolerance, expectedChange(state), report);
     const double before = elastic_.at(state, stiffness_.rods(), stiffness_.shells()).elastic();
     for (int n = 1;; ++n) {
-        if (settings_.contact) addOmittedContacts(of, tolerance, stiffness, report);
+        if (settings_.contact) contact = addOmittedContacts(of, tolerance, stiffness, contact, report);
         AlignedArray<double>& u = system_.vertexVelocities(velocity_);
         const double reached = tryMove(h, u, state);
         // What elastic forces gave, against what they had, and what the solve's error did; backward Euler loses the energy of the change of
@@ -138,7 +140,7 @@ void GridFabricSolver::solve(const Solve& of, FabricReport& report)
         if (isSolved_ && gain < least) least = gain, leastGain_ = velocity_;
         if (n == kMostNewton) break;
         stiffness = stiffness_.assembleAt(stiffness, trial_, h, u);
-        system_.assemble(stiffness);
+        system_.assemble(of.begun, stiffness, contact);
         solveAgain(tolerance, state, report);
     }
     if (least < std::numeric_limits<double>::infinity()) velocity_ = leastGain_;

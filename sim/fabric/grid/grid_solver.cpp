@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace sim {
 
@@ -109,13 +110,13 @@ void GridFabricSolver::moveVertices(double t, double h, const Vec3& gravity, Fab
 {
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { wanted_[v] = move_[v] = h * state.v[v]; });
     SolidLimitReport guarded;
-    if (solidLimiter_.limitBisected(t, h, state.x, mass_, move_, guarded)) {
+    const SolidLimiter::Limited limited = solidLimiter_.limitBisected(t, h, state.x, mass_, move_, guarded);
+    if (limited.moves == SolidLimiter::Limited::Moves::Changed) {
         move_.swap(wanted_);
         const Mechanical wanted = energyAfter(1.0, h, gravity, state);
         move_.swap(wanted_);
         // Solids and pins that move may give energy; and pins must get to where they are led.
-        const bool isDriven =
-            solidLimiter_.anyMoves() || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
+        const bool isDriven = limited.isDriven || std::ranges::any_of(fabric_.pins.motions, [](const Motion& motion) { return !motion.isStatic(); });
         const double part = isDriven ? 1.0 : partWithoutGain(wanted.sum(), h, gravity, state);
         parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) {
             move_[v] *= part;
@@ -180,7 +181,7 @@ void GridFabricSolver::storeAccelerations(double h, FabricState& state)
 
 /// Contacts with obstacles where the vertices would be at the end of the step, which is in front of them. motion_ must hold how they would go
 /// without the fabric's own forces; friction expects these to act on as they did.
-std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
+FabricObstacles::Found GridFabricSolver::touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state)
 {
     obstacles_.moveTo(t, t + h);
     solidLimiter_.moveTo(t, t + h);
@@ -192,9 +193,7 @@ std::span<const ObstacleContact> GridFabricSolver::touchObstacles(double t, doub
         reached_[v] = state.x[v] + move_[v];
         expectedMove_[v] = h * (motion_.velocity[v] + h * state.acceleration[v]);
     });
-    solidLimiter_.rest();
     const std::span<const NearestPoint> nearest = solidLimiter_.nearestPoints(reached_);
-    solidLimiter_.moveTo(t, t + h);
     from_ = state.x;
     FabricObstacles::Start start = obstacleStart(h, state);
     start.moves = expectedMove_;
@@ -228,25 +227,27 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     const double tolerance = settings_.tolerance > 0.0 ? settings_.tolerance : kAccelerationTolerance * felt * h;
     const FaceTolerance until{tolerance, kMaxIterations, kAcceptable * felt * h, kMostIterations};
     clock.start(Stage::FabricContact);
-    system_.begin(particles_, h, loads);
+    const FaceSystem::Begun begun = system_.begin(particles_, h, loads);
     startVelocities(h, gravity, state, loads);
     const double kinetic =
         parallelSum(mass_.size(), [&](std::size_t v) { return 0.5 * mass_[v] * (state.v[v].squaredNorm() + felt * felt * h * h); });
     state.springStep = springStepFor(state.springStep, h, state.stored.solids, kStiffeningGain * kinetic);
-    std::span<const ObstacleContact> touching;
+    std::optional<FabricObstacles::Found> onSolids;
+    ElementContact::Assembled contact = contact_.assembleNone();
     if (settings_.contact) {
-        system_.findMotion(velocity_.faces, motion_);
-        if (!obstacles_.empty()) touching = touchObstacles(t, h, gravity, state);
+        system_.findMotion(begun, velocity_.faces, motion_);
+        if (!obstacles_.empty()) onSolids = touchObstacles(t, h, gravity, state);
         const PredictedMotion prediction = predictionOn(h, until);
-        contact_.assemble(state, &prediction);
+        contact = contact_.assemble(state, &prediction);
     }
+    const std::span<const ObstacleContact> touching = onSolids ? std::span(onSolids->contacts()) : std::span<const ObstacleContact>();
 
     clock.start(Stage::FabricElastic);
     const VertexStiffness::Assembled stiffness = stiffness_.assemble(state, t, h, touching, predicted_);
-    system_.assemble(stiffness);
+    system_.assemble(begun, stiffness, contact);
 
     clock.start(Stage::FabricSolve);
-    solve({h, gravity, state, loads, until, stiffness, kinetic}, report);
+    solve({h, gravity, state, loads, until, begun, stiffness, contact, kinetic}, report);
     conserveMomentum(touching);
     report.contacts = contact_.active().size();
     report.obstacleContacts = touching.size();
@@ -266,14 +267,14 @@ FabricReport GridFabricSolver::advance(double t, double h, const Vec3& gravity, 
     }
     moveVertices(t, h, gravity, state, report);
     state.vertexSolver.onFabric.clear();
-    if (obstacles_.empty()) state.onObstacles.clear();
-    else obstacles_.storeFriction(fabric_, state.x, obstacleStart(h, state), state.onObstacles, state.acceleration);
+    if (!onSolids) state.onObstacles.clear();
+    else onSolids->storeFriction(state.x, obstacleStart(h, state), state.onObstacles, state.acceleration);
     state.gridSolver.sinceGather = h;
     stiffness_.rods().transportFrames(state);
 
     clock.start(Stage::FabricStrain);
     const ContactEnergy before = state.stored;
-    state.stored.solids = obstacles_.storedEnergy(fabric_, state.x, obstacleStart(h, state), state.onObstacles);
+    state.stored.solids = onSolids ? onSolids->storedEnergy(state.x, obstacleStart(h, state), state.onObstacles) : 0.0;
     if (settings_.contact) state.stored.pressed = contact_.advectDirections(predictionOn(h, until), kOmittedEnergy * kinetic, state);
     if (booksEnergy_) bookVertices(gravity, before, state, *report.energyChanges);
     return report;

@@ -33,7 +33,7 @@ class GridFabricSolver final : public FabricIntegrator {
 
  private:
     void begin(FabricState& state);
-    std::span<const ObstacleContact> touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
+    FabricObstacles::Found touchObstacles(double t, double h, const Vec3& gravity, const FabricState& state);
     FabricObstacles::Start obstacleStart(double h, const FabricState& state) const { return {from_, mass_, state.onObstacles, h, state.springStep}; }
     /// Mechanical energy of the fabric [erg].
     struct Mechanical {
@@ -51,7 +51,9 @@ class GridFabricSolver final : public FabricIntegrator {
         const FabricState& state;  ///< state at the start of the step
         const FaceLoads* loads;
         FaceTolerance tolerance;
+        FaceSystem::Begun begun;
         VertexStiffness::Assembled stiffness;
+        ElementContact::Assembled contact;
         double kinetic;  ///< energy of the fabric's motion, or of one that is not felt [erg]
     };
     void solve(const Solve& of, FabricReport& report);
@@ -59,7 +61,8 @@ class GridFabricSolver final : public FabricIntegrator {
     void shortenMotion(const Solve& of, double before);
     void solveOnce(const FaceTolerance& tolerance, const BlockArray<double, 3>* expected, FabricReport& report);
     void solveAgain(const FaceTolerance& tolerance, const FabricState& state, FabricReport& report);
-    void addOmittedContacts(const Solve& of, const FaceTolerance& tolerance, const VertexStiffness::Assembled& stiffness, FabricReport& report);
+    ElementContact::Assembled addOmittedContacts(const Solve& of, const FaceTolerance& tolerance, const VertexStiffness::Assembled& stiffness,
+                                                 ElementContact::Assembled contact, FabricReport& report);
     double kineticOfChange();
     double tryMove(double h, const AlignedArray<double>& u, const FabricState& state);
     PredictedMotion predictionOn(double h, const FaceTolerance& tolerance) const;

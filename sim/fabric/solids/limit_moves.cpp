@@ -113,18 +113,18 @@ void SolidLimiter::leaveToPins()
 SolidLimiter::Limited SolidLimiter::limit(Points x, std::span<const double> mass, Moves u, SolidLimitReport& report)
 {
     isNear_ = false;
-    if (bodies_.empty()) return Limited::Unchanged;
+    if (bodies_.empty()) return {};
     findNear(x, u);
-    if (!isNear_) return Limited::Unchanged;
+    if (!isNear_) return {};
     measure(x, u);
     bool changed = slide(x, u);
     for (int round = 0;; ++round) {
         if (round > 0) findNear(x, u);
         if (round > 0 || changed) measure(x, u);
         findBlocked(x, u);
-        if (blocked_.empty()) return changed ? Limited::Changed : Limited::Unchanged;
+        if (blocked_.empty()) return limited(changed ? Limited::Moves::Changed : Limited::Moves::Unchanged);
         if (round == kPushes + kDraws) carriers_.assign(x.size(), {});
-        if (round == kPushes + kDraws + kCarries || (round >= kPushes + kDraws && anyMoves() && !mayCarry())) break;
+        if (round == kPushes + kDraws + kCarries || (round >= kPushes + kDraws && anyMovesNear() && !mayCarry())) break;
         if (round == 0)
             for (const Blocked& b : blocked_) report.stopped.insert(report.stopped.end(), b.vertices.begin(), b.vertices.begin() + b.corners);
         changed = true;
@@ -137,13 +137,13 @@ SolidLimiter::Limited SolidLimiter::limit(Points x, std::span<const double> mass
         }
     }
     report.left += static_cast<int>(blocked_.size());
-    if (anyMoves()) return Limited::Unsafe;
+    if (anyMovesNear()) return limited(Limited::Moves::Unsafe);
     for (std::size_t v = 0; v < u.size(); ++v)
         if (!fabric_->pinned[v]) u[v].setZero();
-    return Limited::Changed;
+    return limited(Limited::Moves::Changed);
 }
 
-bool SolidLimiter::limitBisected(double t, double h, Points x, std::span<const double> mass, Moves u, SolidLimitReport& report)
+SolidLimiter::Limited SolidLimiter::limitBisected(double t, double h, Points x, std::span<const double> mass, Moves u, SolidLimitReport& report)
 {
     at_.assign(x.begin(), x.end());
     bool changed = false;
@@ -151,21 +151,21 @@ bool SolidLimiter::limitBisected(double t, double h, Points x, std::span<const d
         moveTo(begin, begin + length);
         part_.assign(u.begin(), u.end());
         for (Vec3& move : part_) move *= length / h;
-        const Limited limited = limit(at_, mass, part_, report);
-        if (limited == Limited::Unsafe) return false;
-        changed = changed || limited == Limited::Changed;
+        const Limited::Moves moves = limit(at_, mass, part_, report).moves;
+        if (moves == Limited::Moves::Unsafe) return false;
+        changed = changed || moves == Limited::Moves::Changed;
         for (std::size_t v = 0; v < at_.size(); ++v) at_[v] += part_[v];
         return true;
     };
-    if (!bisectInterval(t, h, kMostHalvings, go)) throwNoSafeMove();
+    if (!bisectInterval(t, h, kMostHalvings, go)) throwNoSafeMove(at_, part_);
     moveTo(t, t + h);
-    if (!changed) return false;
-    for (std::size_t v = 0; v < at_.size(); ++v) u[v] = at_[v] - x[v];
-    return true;
+    for (std::size_t v = 0; changed && v < at_.size(); ++v) u[v] = at_[v] - x[v];
+    return limited(changed ? Limited::Moves::Changed : Limited::Moves::Unchanged);
 }
 
-void SolidLimiter::throwNoSafeMove() const
+void SolidLimiter::throwNoSafeMove(Points x, std::span<const Vec3> u)
 {
+    findNear(x, u);
     std::string names;
     for (const Body& body : bodies_)
         if (body.isNear) names += (names.empty() ? "" : ", ") + body.name;
@@ -175,16 +175,16 @@ void SolidLimiter::throwNoSafeMove() const
                     names));
 }
 
-double SolidLimiter::safePart(Points x, std::span<const Vec3> u)
+SolidLimiter::SafeShare SolidLimiter::safePart(Points x, std::span<const Vec3> u)
 {
-    if (bodies_.empty()) return 1.0;
+    if (bodies_.empty()) return {};
     findNear(x, u);
-    if (!isNear_) return 1.0;
+    if (!isNear_) return {};
     measure(x, u);
     findBlocked(x, u);
     double part = 1.0;
     for (const Blocked& b : blocked_) part = std::min(part, b.part);
-    return part;
+    return {part, anyMovesNear()};
 }
 
 }  // namespace sim

@@ -181,8 +181,8 @@ bool FabricObstacles::touches(const Vec3& x, double reach) const
     return std::ranges::any_of(bodies_, [&](const Body& body) { return body.pose.distance(x) < reach; });
 }
 
-const std::vector<ObstacleContact>& FabricObstacles::findContacts(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
-                                                                  std::span<const NearestPoint> nearest)
+FabricObstacles::Found FabricObstacles::findContacts(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
+                                                     std::span<const NearestPoint> nearest)
 {
     contacts_.clear();
     const auto collectFrom = [&](std::size_t n, auto&& body) {
@@ -216,60 +216,59 @@ const std::vector<ObstacleContact>& FabricObstacles::findContacts(const Fabric& 
         corners.weights = p.weights;
         collect(nearestPoint(fabric, p, x, start), p.body, corners, start, out);
     });
-    return contacts_;
+    return Found(*this, fabric);
 }
 
-void FabricObstacles::storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held,
-                                    std::span<Vec3> acceleration)
+void FabricObstacles::Found::storeFriction(std::span<const Vec3> x, const Start& start, FrictionForces& held, std::span<Vec3> acceleration) const
 {
-    std::vector<std::optional<Vec3>>& force = keptForce_;
-    force.resize(contacts_.size());
-    lostForce_.resize(contacts_.size());
-    parallelFor(contacts_.size(), 256, [&](std::size_t i) {
+    std::vector<std::optional<Vec3>>& force = in_->keptForce_;
+    force.resize(in_->contacts_.size());
+    in_->lostForce_.resize(in_->contacts_.size());
+    parallelFor(in_->contacts_.size(), 256, [&](std::size_t i) {
         force[i].reset();
-        const ObstacleContact& c = contacts_[i];
-        const Point point = pointOf(fabric, c, x, start);
-        const Body& body = bodies_[c.between[1]];
+        const ObstacleContact& c = in_->contacts_[i];
+        const Point point = in_->pointOf(*fabric_, c, x, start);
+        const Body& body = in_->bodies_[c.between[1]];
         const double overlap = point.reach - body.pose.distance(point.x);
         const Vec3 n = body.pose.normal(point.x), all = c.gradient + c.stiffness * (point.x - c.place), acted = all - all.dot(n) * n;
-        lostForce_[i] = acted;
+        in_->lostForce_[i] = acted;
         if (!(overlap > 0.0)) return;
         const double bound = body.friction[point.material] * stiffnessOf(point, start) * overlap;
         force[i] = atMost(bound, acted);
-        lostForce_[i] -= *force[i];
+        in_->lostForce_[i] -= *force[i];
     });
     held.clear();
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-        if (force[i]) held.add(contacts_[i].between, *force[i]);
+    for (std::size_t i = 0; i < in_->contacts_.size(); ++i)
+        if (force[i]) held.add(in_->contacts_[i].between, *force[i]);
     if (acceleration.empty()) return;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const std::array<int, 3> v = contacts_[i].vertices();
-        const std::array<double, 3> share = contacts_[i].shares();
-        for (int k = 0; k < 3; ++k) acceleration[v[k]] += share[k] / start.mass[v[k]] * lostForce_[i];
+    for (std::size_t i = 0; i < in_->contacts_.size(); ++i) {
+        const std::array<int, 3> v = in_->contacts_[i].vertices();
+        const std::array<double, 3> share = in_->contacts_[i].shares();
+        for (int k = 0; k < 3; ++k) acceleration[v[k]] += share[k] / start.mass[v[k]] * in_->lostForce_[i];
     }
 }
 
-double FabricObstacles::storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const
+double FabricObstacles::Found::storedEnergy(std::span<const Vec3> x, const Start& start, const FrictionForces& held) const
 {
-    return parallelSum(contacts_.size(),
+    return parallelSum(in_->contacts_.size(),
                        [&](std::size_t i) {
-                           const ObstacleContact& c = contacts_[i];
-                           const Point point = pointOf(fabric, c, x, start);
-                           const double overlap = std::max(0.0, point.reach - bodies_[c.between[1]].pose.distance(point.x)),
+                           const ObstacleContact& c = in_->contacts_[i];
+                           const Point point = in_->pointOf(*fabric_, c, x, start);
+                           const double overlap = std::max(0.0, point.reach - in_->bodies_[c.between[1]].pose.distance(point.x)),
                                         stiffness = stiffnessOf(point, start);
                            return 0.5 * stiffness * overlap * overlap + 0.5 * held.at(c.between).squaredNorm() / stiffness;
                        }) +
-           bridgeEnergy(fabric, x);
+           bridgeEnergy(x);
 }
 
-double FabricObstacles::bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const
+double FabricObstacles::Found::bridgeEnergy(std::span<const Vec3> x) const
 {
-    if (!cohesion_ || !cohesion_->isOnObstacles()) return 0.0;
-    return -parallelSum(contacts_.size(), [&](std::size_t i) {
-        const ObstacleContact& c = contacts_[i];
+    if (!in_->cohesion_ || !in_->cohesion_->isOnObstacles()) return 0.0;
+    return -parallelSum(in_->contacts_.size(), [&](std::size_t i) {
+        const ObstacleContact& c = in_->contacts_[i];
         if (!(c.pull > 0.0)) return 0.0;
-        const double longest = (1.0 + kActivation + kBridgeLength) * fabric.radius[c.vertex];
-        return c.pull * std::max(0.0, longest - bodies_[c.between[1]].pose.distance(x[c.vertex]));
+        const double longest = (1.0 + kActivation + kBridgeLength) * fabric_->radius[c.vertex];
+        return c.pull * std::max(0.0, longest - in_->bodies_[c.between[1]].pose.distance(x[c.vertex]));
     });
 }
 

@@ -68,18 +68,28 @@ class FabricObstacles {
         /// is held take the vertices.
         std::span<const Vec3> moves = {};
     };
+    /// Contacts that were found in a step, until others are looked for.
+    class Found {
+     public:
+        const std::vector<ObstacleContact>& contacts() const { return in_->contacts_; }
+        /// What of the friction is held at the end of the step, at x, where they still touch: what acted there according to their gradients and
+        /// stiffnesses.
+        /// @param acceleration  of the vertices by forces, if the next step expects these to go on: loses what friction did and no longer does,
+        ///                      which after a blow is most of it [cm/s^2]
+        void storeFriction(std::span<const Vec3> x, const Start& start, FrictionForces& held, std::span<Vec3> acceleration = {}) const;
+        /// Energy that they hold at x, in their penalty and in the friction that is held there [erg].
+        double storedEnergy(std::span<const Vec3> x, const Start& start, const FrictionForces& held) const;
+        /// Energy that they hold at x in liquid bridges, 0 or below [erg].
+        double bridgeEnergy(std::span<const Vec3> x) const;
+
+     private:
+        friend FabricObstacles;
+        Found(FabricObstacles& in, const Fabric& fabric) : in_(&in), fabric_(&fabric) {}
+        FabricObstacles* in_;
+        const Fabric* fabric_;
+    };
     /// Contacts at x, of the vertices, then of the edges, then of the points of edges and faces that touch besides.
-    const std::vector<ObstacleContact>& findContacts(const Fabric& fabric, std::span<const Vec3> x, const Start& start,
-                                                     std::span<const NearestPoint> nearest = {});
-    /// What of the friction is held at the end of the step, at x, where the contacts found last still touch: what acted there according to
-    /// their gradients and stiffnesses.
-    /// @param acceleration  of the vertices by forces, if the next step expects these to go on: loses what friction did and no longer does, which
-    ///                      after a blow is most of it [cm/s^2]
-    void storeFriction(const Fabric& fabric, std::span<const Vec3> x, const Start& start, FrictionForces& held, std::span<Vec3> acceleration = {});
-    /// Energy that the contacts found last hold at x, in their penalty and in the friction that is held there [erg].
-    double storedEnergy(const Fabric& fabric, std::span<const Vec3> x, const Start& start, const FrictionForces& held) const;
-    /// Energy that the contacts found last hold at x in liquid bridges, 0 or below [erg].
-    double bridgeEnergy(const Fabric& fabric, std::span<const Vec3> x) const;
+    Found findContacts(const Fabric& fabric, std::span<const Vec3> x, const Start& start, std::span<const NearestPoint> nearest = {});
     /// Deepest that a vertex, or the middle of an edge, reaches with its radius into an obstacle [cm]; negative: the least gap.
     double deepest(const Fabric& fabric, std::span<const Vec3> x) const;
 

@@ -71,7 +71,8 @@ void SolidLimiter::rest()
     }
 }
 
-bool SolidLimiter::anyMoves() const
+/// Does one of the solids found near move?
+bool SolidLimiter::anyMovesNear() const
 {
     return std::ranges::any_of(bodies_, [](const Body& body) { return body.isNear && body.moves; });
 }
@@ -80,10 +81,10 @@ bool SolidLimiter::movesNear(Points x, std::span<const Vec3> u)
 {
     if (bodies_.empty()) return false;
     findNear(x, u, kPushed);
-    return anyMoves();
+    return anyMovesNear();
 }
 
-/// Solids whose boxes the fabric meets on its way, or comes as near as so many radii.
+/// Solids whose boxes the fabric meets on its way, or comes as near as so many radii; without moves, where the solids are at the end.
 void SolidLimiter::findNear(Points x, std::span<const Vec3> u, double radii)
 {
     isNear_ = false;
@@ -92,20 +93,20 @@ void SolidLimiter::findNear(Points x, std::span<const Vec3> u, double radii)
     for (Body& body : bodies_) {
         const Eigen::AlignedBox3d solid = body.shape.bounds();
         Eigen::AlignedBox3d seen;
-        for (const Eigen::Isometry3d* to : {&body.toBegin, &body.toEnd})
+        for (const Eigen::Isometry3d* to : {u.empty() ? &body.toEnd : &body.toBegin, &body.toEnd})
             for (int c = 0; c < 8; ++c) seen.extend(*to * fabric.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c)));
         body.isNear = (seen.min().array() - reach <= solid.max().array()).all() && (seen.max().array() + reach >= solid.min().array()).all();
         isNear_ = isNear_ || body.isNear;
     }
 }
 
-/// Distances at the start, and what may be left of them on the way.
+/// Distances at the start, and what may be left of them on the way; without moves, those where the solids are at the end.
 void SolidLimiter::measure(Points x, std::span<const Vec3> u)
 {
     for (Body& body : bodies_) {
         if (!body.isNear) continue;
         parallelFor(x.size(), 512, [&](std::size_t v) {
-            const Vec3 from = body.toBegin * x[v];
+            const Vec3 from = (u.empty() ? body.toEnd : body.toBegin) * x[v];
             body.distance[v] = body.shape.distance(from);
             body.clear[v] = body.distance[v];
             if (!u.empty()) body.clear[v] -= body.steepest * (body.toEnd * (x[v] + u[v]) - from).norm();

@@ -44,28 +44,33 @@ class SolidLimiter {
     void moveTo(double t0, double t1);
     /// During the next moves solids rest where the last moveTo led.
     void rest();
-    bool anyMoves() const;  ///< whether one of those near the fabric in the last limit() moves
     /// Does a solid that moves come near the box around these moves, so that it may push?
     bool movesNear(std::span<const Vec3> x, std::span<const Vec3> u);
 
-    enum class Limited { Unchanged, Changed, Unsafe };
+    /// What became of moves, and which solids they came near.
+    struct Limited {
+        enum class Moves { Unchanged, Changed, Unsafe };
+        Moves moves = Moves::Unchanged;
+        bool isNear = false;    ///< near any solid
+        bool isDriven = false;  ///< near one that moves
+    };
     /// Makes the moves u from x safe [cm], but for those of pinned vertices; Unsafe, which they are only while solids move, if it cannot.
     /// @param mass  of each vertex [g]
     Limited limit(std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
     /// Makes the moves u safe while solids go on for h from t [s], by bisection of the time where that is needed: u becomes the displacement, not
-    /// the path.
-    /// @return whether it changed any
-    bool limitBisected(double t, double h, std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
+    /// the path. Near are solids in the last part of the way.
+    Limited limitBisected(double t, double h, std::span<const Vec3> x, std::span<const double> mass, std::span<Vec3> u, SolidLimitReport& report);
     static constexpr int kMostHalvings = 8;  ///< largest number of halvings of the time, one within the other
-    /// Throws RunError: the last limit() has found no safe moves, in however short a time.
-    [[noreturn]] void throwNoSafeMove() const;
-    /// Was any fabric near a solid in the last limit()?
-    bool isNear() const { return isNear_; }
-    /// Points at which edges and faces are nearer to solids than their radius, and than their vertices, by elements, then by solids, which
-    /// must rest.
+    /// Throws RunError: the moves u from x cannot be made safe, in however short a time.
+    [[noreturn]] void throwNoSafeMove(std::span<const Vec3> x, std::span<const Vec3> u);
+    /// Points at which edges and faces are nearer to solids, where the last moveTo led these, than their radius, and than their vertices; by
+    /// elements, then by solids.
     const std::vector<NearestPoint>& nearestPoints(std::span<const Vec3> x);
-    /// Safe part of all moves together [0..1].
-    double safePart(std::span<const Vec3> x, std::span<const Vec3> u);
+    struct SafeShare {
+        double part = 1.0;      ///< safe part of all moves together [0..1]
+        bool isDriven = false;  ///< a solid near them moves
+    };
+    SafeShare safePart(std::span<const Vec3> x, std::span<const Vec3> u);
 
  private:
     static constexpr double kKept = 0.85;     ///< share of its distance that an element which begins nearer keeps: less than kNearestError leaves [-]
@@ -92,6 +97,8 @@ class SolidLimiter {
     using Points = std::span<const Vec3>;
 
     void findNear(Points x, std::span<const Vec3> u, double radii = 1.0);
+    bool anyMovesNear() const;
+    Limited limited(Limited::Moves moves) const { return {moves, isNear_, anyMovesNear()}; }
     void measure(Points x, std::span<const Vec3> u);
     solids::SweptElement swept(const Body& body, Points x, std::span<const Vec3> u, const int* vertices, int corners) const;
     bool slide(Points x, Moves u);

@@ -15,19 +15,19 @@ namespace sim {
 void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes, std::span<Vec3> gradient) const
 {
     const auto move = [&](int v) -> Vec3 { return state.x[v] - start_.x[v]; };
-    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) {
-        const std::array<int, 4>& v = contacts_->vertices[i];
-        const Vec3& normal = contacts_->normal[i];
+    for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) {
+        const std::array<int, 4>& v = contacts_->pairs().vertices[i];
+        const Vec3& normal = contacts_->pairs().normal[i];
         Vec3 apart = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) apart += contacts_->slipJacobian(i, k) * move(v[k]);
+        for (int k = 0; k < 4; ++k) apart += contacts_->pairs().slipJacobian(i, k) * move(v[k]);
         const Vec3 force = forceAtEnd(i);
         const Vec3 push = normal.dot(force) * normal;
         changes[EnergyChange::Contact] -= push.dot(apart);
         changes[EnergyChange::Friction] -= (force - push).dot(apart);
-        const std::array<Vec3, 4> onVertices = contacts_->forcesOnVertices(i, force);
+        const std::array<Vec3, 4> onVertices = contacts_->pairs().forcesOnVertices(i, force);
         for (int k = 0; k < 4; ++k) gradient[v[k]] += onVertices[k];
     }
-    for (const ObstacleContact& contact : touching_) {
+    for (const ObstacleContact& contact : touching()) {
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         Vec3 moved = Vec3::Zero();
@@ -55,8 +55,8 @@ std::vector<char> VertexSolver::heldBySolids() const
             hold(std::array<int, 3>{fabric_.strands.vertex(s, j), fabric_.strands.vertex(s, j + 1), fabric_.strands.vertex(s, j + 2)});
     for (const Vec2i& edge : fabric_.edges.vertices) hold(edge);
     for (const Vec3i& face : fabric_.faces.vertices) hold(face);
-    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) hold(contacts_->vertices[i]);
-    for (const ObstacleContact& contact : touching_) hold(contact.vertices());
+    for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) hold(contacts_->pairs().vertices[i]);
+    for (const ObstacleContact& contact : touching()) hold(contact.vertices());
     return held;
 }
 

@@ -16,11 +16,12 @@ Vec3 VertexSolver::solvedMove(int vertex) const { return hasMovedSinceDetection_
 /// the force at the state is another than the one it reckoned with.
 Vec3 VertexSolver::forceAtEnd(std::size_t contact) const
 {
-    const Vec3& normal = contacts_->normal[contact];
+    const Vec3& normal = contacts_->pairs().normal[contact];
     Vec3 change = Vec3::Zero();
-    for (int k = 0; k < 4; ++k) change += contacts_->slipJacobian(contact, k) * solvedMove(contacts_->vertices[contact][k]);
+    for (int k = 0; k < 4; ++k) change += contacts_->pairs().slipJacobian(contact, k) * solvedMove(contacts_->pairs().vertices[contact][k]);
     const Vec3 along = normal.dot(change) * normal;
-    return contacts_->force[contact] + contacts_->stiffness[contact] * along + contacts_->frictionStiffness[contact] * (change - along);
+    return contacts_->pairs().force[contact] + contacts_->pairs().stiffness[contact] * along +
+           contacts_->pairs().frictionStiffness[contact] * (change - along);
 }
 
 /// Gradient of a point on a solid by its place at the end [dyn]: what acted there, and its stiffness times what Newton has left to go.
@@ -43,19 +44,19 @@ void VertexSolver::reportForces(double h, const FabricState& state) const
 /// Penalty and friction, on solids and between pieces of the scene.
 void VertexSolver::reportContacts(double h, const FabricState& state) const
 {
-    for (const ObstacleContact& contact : touching_) {
+    for (const ObstacleContact& contact : touching()) {
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         const Vec3 place = share[0] * state.x[v[0]] + share[1] * state.x[v[1]] + share[2] * state.x[v[2]];
         forces_->touch(fabric_.pieceOf(v[0]), obstacles_.inScene(contact.between[1]), Impulse::at(place, h * forceAtEnd(contact)));
     }
-    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) {
-        const std::array<int, 4>& v = contacts_->vertices[i];
-        const int first = fabric_.pieceOf(v[0]), second = fabric_.pieceOf(v[contacts_->firstSide[i]]);
+    for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) {
+        const std::array<int, 4>& v = contacts_->pairs().vertices[i];
+        const int first = fabric_.pieceOf(v[0]), second = fabric_.pieceOf(v[contacts_->pairs().firstSide[i]]);
         if (first == second) continue;
-        const std::array<Vec3, 4> impulses = contacts_->forcesOnVertices(i, -h * forceAtEnd(i));
+        const std::array<Vec3, 4> impulses = contacts_->pairs().forcesOnVertices(i, -h * forceAtEnd(i));
         Impulse onFirst;
-        for (int k = 0; k < contacts_->firstSide[i]; ++k) onFirst += Impulse::at(state.x[v[k]], impulses[k]);
+        for (int k = 0; k < contacts_->pairs().firstSide[i]; ++k) onFirst += Impulse::at(state.x[v[k]], impulses[k]);
         forces_->meet(first, second, onFirst);
     }
 }

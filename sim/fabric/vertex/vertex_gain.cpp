@@ -21,9 +21,10 @@ constexpr double kMostRecovered = 0.03;
 ContactEnergy VertexSolver::contactEnergy(double h, std::span<const Vec3> x, const FabricState& held) const
 {
     ContactEnergy stored;
-    if (contacts_) stored = contact_->storedEnergy(x, held.vertexSolver.onFabric);
-    stored.solids = obstacles_.storedEnergy(fabric_, x, obstacleStart(h), held.onObstacles);
-    stored.bridges += obstacles_.bridgeEnergy(fabric_, x);
+    if (contacts_) stored = contacts_->storedEnergy(x, held.vertexSolver.onFabric);
+    if (!solids_) return stored;
+    stored.solids = solids_->storedEnergy(x, obstacleStart(h), held.onObstacles);
+    stored.bridges += solids_->bridgeEnergy(x);
     return stored;
 }
 

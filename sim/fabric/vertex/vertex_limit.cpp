@@ -29,7 +29,7 @@ SolidLimiter::Limited VertexSolver::limitAtSolids(const FabricState& state)
     if (solidLimiter_.empty() || !forces_) return solidLimiter_.limit(state.x, mass_, move_, solidLimits_);
     unlimitedMove_ = move_;
     const SolidLimiter::Limited limited = solidLimiter_.limit(state.x, mass_, move_, solidLimits_);
-    if (limited == SolidLimiter::Limited::Changed)
+    if (limited.moves == SolidLimiter::Limited::Moves::Changed)
         parallelFor(move_.size(), 4096, [&](std::size_t v) { limitedMove_[v] += move_[v] - unlimitedMove_[v]; });
     return limited;
 }
@@ -43,24 +43,24 @@ VertexSolver::LimitedMove VertexSolver::limitAlternately(const FabricState& stat
     for (int turn = 0; turn < kMostTurns; ++turn) {
         clock.start(Stage::FabricContact);
         const SolidLimiter::Limited limited = limitAtSolids(state);
-        if (limited == SolidLimiter::Limited::Unsafe) return move;
-        solidLimiterActed_ = solidLimiterActed_ || limited == SolidLimiter::Limited::Changed;
-        move.isSafe = limited == SolidLimiter::Limited::Unchanged && turn > 0;
+        if (limited.moves == SolidLimiter::Limited::Moves::Unsafe) return move;
+        solidLimiterActed_ = solidLimiterActed_ || limited.moves == SolidLimiter::Limited::Moves::Changed;
+        move.isSafe = limited.moves == SolidLimiter::Limited::Moves::Unchanged && turn > 0;
         if (move.isSafe) return move;
         move.betweenFabric = contact_->limit(state.x, move_, limits_, clock);
-        move.isSafe = !move.betweenFabric->wereChanged() || !solidLimiter_.isNear();
+        move.isSafe = !move.betweenFabric->wereChanged() || !limited.isNear;
         if (move.isSafe) return move;
     }
     clock.start(Stage::FabricContact);
-    const double part = solidLimiter_.safePart(state.x, move_);
-    move.isSafe = part >= 1.0 || !solidLimiter_.anyMoves();
-    if (part >= 1.0) return move;
+    const SolidLimiter::SafeShare safe = solidLimiter_.safePart(state.x, move_);
+    move.isSafe = safe.part >= 1.0 || !safe.isDriven;
+    if (safe.part >= 1.0) return move;
     // A part of each straight move is as safe, if solids rest.
     if (!move.isSafe) {
         ++solidLimits_.left;
         return move;
     }
-    parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSafeShare * part; });
+    parallelFor(move_.size(), 4096, [&](std::size_t v) { move_[v] *= kSafeShare * safe.part; });
     ++limits_.globalScalings;
     return move;
 }
@@ -79,7 +79,7 @@ bool VertexSolver::followSolids(const Part& part, bool isLast)
         return limited.isSafe;
     };
     const bool hasGot = solids::bisectInterval(part.t, h, isLast ? SolidLimiter::kMostHalvings : 0, go);
-    if (!hasGot && isLast) solidLimiter_.throwNoSafeMove();
+    if (!hasGot && isLast) solidLimiter_.throwNoSafeMove(part.state.x, move_);
     solidLimiter_.rest();
     return hasGot;
 }

@@ -10,8 +10,8 @@ namespace sim {
 /// Which pieces of fabric acted on each other at the end of the attempt, and what held them.
 void VertexSolver::findGroups(FabricGroups& groups) const
 {
-    for (std::size_t i = 0; contacts_ && i < contacts_->size(); ++i) groups.joinVertices(contacts_->vertices[i]);
-    for (const ObstacleContact& contact : touching_)
+    for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) groups.joinVertices(contacts_->pairs().vertices[i]);
+    for (const ObstacleContact& contact : touching())
         for (int v : contact.vertices()) groups.hold(v);
     for (int v : solidLimits_.stopped) groups.hold(v);
 }

@@ -34,13 +34,14 @@ constexpr int kMaxLinearIterations = 1000;
 /// @param expected  ActiveContacts, FabricObstacles::Start
 void VertexSolver::findContacts(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock)
 {
-    contacts_ = contact_ && contact_->candidates() > 0 ? &contact_->activeAt(x, clock, expected) : nullptr;
-    touching_ = {};
+    contacts_.reset();
+    if (contact_ && contact_->candidates() > 0) contacts_ = contact_->activeAt(x, clock, expected);
+    solids_.reset();
     if (obstacles_.empty()) return;
     clock.start(Stage::FabricContact);
     FabricObstacles::Start start = obstacleStart(h);
     start.moves = expected;
-    touching_ = obstacles_.findContacts(fabric_, x, start, solidLimiter_.nearestPoints(x));
+    solids_ = obstacles_.findContacts(fabric_, x, start, solidLimiter_.nearestPoints(x));
 }
 
 /// Newton's move from where the state is, into move_.
@@ -53,26 +54,26 @@ void VertexSolver::solve(const Part& part, Newton& newton)
     hasMovedSinceDetection_ = true;
     part.clock.start(Stage::FabricElastic);
     const NewtonPoint point{*elasticStep_, state, free_, freeAngle_, inertia_, h, isSecondOrder_ ? 2.0 : 1.0};
-    system_.assemble(point, touching_, contacts_);
+    system_.assemble(point, touching(), contacts());
     part.clock.start(Stage::FabricSolve);
     const double share = settings_.tolerance > 0.0 ? settings_.tolerance : kTolerance;
     const double fall = referenceAcceleration_ * h;
-    const bool isTouching = !touching_.empty() || (contacts_ && contacts_->size() > 0);
+    const bool isTouching = !touching().empty() || (contacts_ && contacts_->pairs().size() > 0);
     const LinearTolerance tolerance = {share, kAccelerationTolerance * fall * share / kTolerance,
                                        std::min(kMoveTolerance * meanRadius_ / h, kAcceptable * fall), isTouching ? kLeftAtContact : 1.0,
                                        kRoundings * placeRounding_ / h};
     LinearReport linear = system_.solve(tolerance, newton.count == 0, kMaxLinearIterations);
     if (linear.isIndefinite) {
         report.iterations += linear.iterations;
-        system_.assembleDefinite(point, touching_, contacts_);
+        system_.assembleDefinite(point, touching(), contacts());
         linear = system_.solve(tolerance, newton.count == 0, kMaxLinearIterations);
     }
     parallelFor(fabric_.vertexCount(), 1024, [&](std::size_t v) { move_[v] = system_.move(static_cast<int>(v)); });
     ++report.newton;
     report.iterations += linear.iterations;
     report.speedError = std::max(report.speedError, linear.speedError);
-    report.contacts = contacts_ ? contacts_->size() : 0;
-    report.obstacleContacts = touching_.size();
+    report.contacts = contacts_ ? contacts_->pairs().size() : 0;
+    report.obstacleContacts = touching().size();
 }
 
 /// Has the last move left nothing worth another? One by which nothing moved far, or much less far than before.
@@ -130,7 +131,7 @@ void VertexSolver::iterate(const Part& part, Newton& newton)
         applyStep(part, newton);
         const bool isLastMove = newton.hasNegligibleChange || newton.count >= (newton.isNearSolution ? settings_.newton : most);
         if (!isLastMove) continue;
-        const double frictionError = contacts_ ? contact_->frictionError(state.x, kSignificantFriction * referenceAcceleration_) : 0.0;
+        const double frictionError = contacts_ ? contacts_->frictionError(state.x, kSignificantFriction * referenceAcceleration_) : 0.0;
         // Steps that something drives are halved instead: shorter ones take less energy from it that fabric cannot follow.
         if (frictionError > kFrictionError && newton.count < (isDriven_ ? most : std::max(most, kMostForFriction))) continue;
         newton.hasConverged = newton.hasConverged && frictionError <= kFrictionError;

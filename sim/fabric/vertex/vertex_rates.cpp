@@ -42,13 +42,13 @@ Vec3 VertexSolver::limiterForce(std::size_t v, double h) const
 /// All contacts with what they do to their vertices, by their forces as Newton's last move reckoned with them; and the sum of those on each vertex.
 void VertexSolver::findContactForces(double h, std::vector<Vec3>& sum)
 {
-    const std::size_t pairs = contacts_ ? contacts_->size() : 0;
-    acting_.resize(pairs + touching_.size());
+    const std::size_t pairs = contacts_ ? contacts_->pairs().size() : 0;
+    acting_.resize(pairs + touching().size());
     parallelFor(pairs, 256, [&](std::size_t i) {
-        acting_[i] = {contacts_->vertices[i], contacts_->forcesOnVertices(i, -forceAtEnd(i)), Vec3::Zero()};
+        acting_[i] = {contacts_->pairs().vertices[i], contacts_->pairs().forcesOnVertices(i, -forceAtEnd(i)), Vec3::Zero()};
     });
-    parallelFor(touching_.size(), 256, [&](std::size_t i) {
-        const ObstacleContact& contact = touching_[i];
+    parallelFor(touching().size(), 256, [&](std::size_t i) {
+        const ObstacleContact& contact = touching()[i];
         const std::array<int, 3> v = contact.vertices();
         const std::array<double, 3> share = contact.shares();
         const Vec3 force = -forceAtEnd(contact), place = share[0] * start_.x[v[0]] + share[1] * start_.x[v[1]] + share[2] * start_.x[v[2]];

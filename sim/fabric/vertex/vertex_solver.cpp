@@ -174,9 +174,10 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
 /// What a step leaves behind when the fabric is where it ends, besides rates: what friction holds, and the energy of contact.
 void VertexSolver::storeContacts(double h, FabricState& state)
 {
-    if (contacts_) contact_->storeFriction(state.x, state.vertexSolver.onFabric);
+    if (contacts_) contacts_->storeFriction(state.x, state.vertexSolver.onFabric);
     else state.vertexSolver.onFabric.clear();
-    obstacles_.storeFriction(fabric_, state.x, obstacleStart(h), state.onObstacles);
+    if (solids_) solids_->storeFriction(state.x, obstacleStart(h), state.onObstacles);
+    else state.onObstacles.clear();
     state.stored = contactEnergy(h, state.x, state);
 }
 

@@ -33,7 +33,7 @@ class VertexSolver final : public FabricIntegrator {
     FabricEnergies energies(const FabricState& state, const Vec3& gravity) const override;
     double deepestInObstacles(const FabricState& state) const override { return obstacles_.deepest(fabric_, state.x); }
     /// Active contacts of the last Newton iteration.
-    const ActiveContacts* contacts() const override { return contacts_; }
+    const ActiveContacts* contacts() const override { return contacts_ ? &contacts_->pairs() : nullptr; }
     double leastDistance() const;
 
  private:
@@ -71,6 +71,10 @@ class VertexSolver final : public FabricIntegrator {
     void advanceInParts(const Part& part);
     bool beginAttempt(const Part& part, bool isLast);
     void predict(const Part& part);
+    std::span<const ObstacleContact> touching() const
+    {
+        return solids_ ? std::span<const ObstacleContact>(solids_->contacts()) : std::span<const ObstacleContact>();
+    }
     void findContacts(double h, std::span<const Vec3> x, std::span<const Vec3> expected, StageClock& clock);
     void updateContacts(double h, FabricState& state, StageClock& clock);
     void solve(const Part& part, Newton& newton);
@@ -171,8 +175,8 @@ class VertexSolver final : public FabricIntegrator {
     std::vector<int> nearestPin_;          ///< nearestPins of each vertex
 
     mutable ElasticEnergies elastic_;
-    const ActiveContacts* contacts_ = nullptr;       ///< contacts of fabric with fabric in the last Newton iteration
-    std::span<const ObstacleContact> touching_;      ///< contacts of fabric with obstacles in the last Newton iteration
+    std::optional<FabricContact::Active> contacts_;  ///< contacts of fabric with fabric in the last Newton iteration, where any are near
+    std::optional<FabricObstacles::Found> solids_;   ///< contacts of fabric with obstacles in the last Newton iteration
     LimitReport limits_;                             ///< limits of contact between fabric in the attempt under way
     SolidLimitReport solidLimits_;                   ///< limits of contact with solids in the attempt under way
     bool solidLimiterActed_ = false;                 ///< solids have changed the last move

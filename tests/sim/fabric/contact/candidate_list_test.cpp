@@ -26,7 +26,7 @@ struct WatchedList {
     /// @return whether the list had to be built
     bool move(std::span<const Vec3> u)
     {
-        const bool isBuilt = list.coverMoves(x, u);
+        const CoveredMoves covered = list.coverMoves(x, u);
         for (const NearPair& p : all) {
             const auto at = [&](std::span<const Vec3> w) {
                 return std::array<Vec3, 4>{w[p.vertices[0]], w[p.vertices[1]], w[p.vertices[2]], w[p.vertices[3]]};
@@ -37,8 +37,8 @@ struct WatchedList {
             EXPECT_TRUE(holds(p));
         }
         for (std::size_t v = 0; v < u.size(); ++v) x[v] += u[v];
-        list.moved();
-        return isBuilt;
+        list.moved(covered);
+        return covered.wereSearched();
     }
     /// Looks whether pairs are there that act.
     void stay()
@@ -127,13 +127,13 @@ TEST(CandidateList, HoldsNoPairTwice)
         std::vector<Vec3> u = randomMoves(fabric, 0.1, step);
         for (std::size_t v = 0; v < u.size(); ++v)
             if (v % 3 != step % 3) u[v].setZero();
-        list.coverMoves(x, u);
+        const CoveredMoves covered = list.coverMoves(x, u);
         for (const CandidatePool* pool : {&list.edgePairs(), &list.facePairs()}) {
             std::set<std::pair<int, int>> seen;
             for (std::size_t i = 0; i < pool->size(); ++i) EXPECT_TRUE(seen.insert({pool->a[i], pool->b[i]}).second);
         }
         for (std::size_t v = 0; v < u.size(); ++v) x[v] += u[v];
-        list.moved();
+        list.moved(covered);
     }
 }
 
@@ -158,13 +158,13 @@ TEST(CandidateList, MeasuresAtX)
         list.coverMoves(x, u);
         list.measure(x);
         for (Vec3& v : u) v *= 1.3;
-        list.coverMoves(x, u);
+        const CoveredMoves covered = list.coverMoves(x, u);
         list.measure(x);
         for (const CandidatePool* pool : {&list.edgePairs(), &list.facePairs()})
             for (std::size_t i = 0; i < pool->size(); ++i)  // packs contract products as they like
                 EXPECT_NEAR(pool->distance[i], distanceOf({0, 0, pool->kind, pool->vertices[i], {}}, x), 1.0e-12);
         for (std::size_t v = 0; v < u.size(); ++v) x[v] += u[v];
-        list.moved();
+        list.moved(covered);
     }
 }
 

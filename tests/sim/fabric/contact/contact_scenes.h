@@ -226,7 +226,7 @@ struct ContactRun {
     const ActiveContacts& active()
     {
         StageClock clock(step);
-        return contact.activeAt(x, clock);
+        return contact.activeAt(x, clock).pairs();
     }
 
     const Fabric fabric;

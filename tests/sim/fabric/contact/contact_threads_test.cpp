@@ -60,7 +60,7 @@ void shake(ContactRun& run, std::vector<Vec3>& u, int steps)
             const FabricContact::LimitedMoves limited = run.contact.limit(run.x, u, run.report, clock);
             for (std::size_t v = 0; v < u.size(); ++v) run.x[v] += u[v];
             run.contact.moved(limited);
-            const ActiveContacts& contacts = run.contact.activeAt(run.x, clock);
+            const ActiveContacts& contacts = run.contact.activeAt(run.x, clock).pairs();
             for (Vec3& w : u) w.setZero();
             for (std::size_t i = 0; i < contacts.size(); ++i)
                 for (int a = 0; a < 4; ++a) u[contacts.vertices[i][a]] -= 0.1 * contacts.weights[i][a] / contacts.stiffness[i] * contacts.force[i];

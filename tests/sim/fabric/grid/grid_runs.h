@@ -3,6 +3,8 @@
 #include "sim/fabric/grid/grid_solver.h"
 #include "tests/sim/fabric/pieces.h"
 
+#include <utility>
+
 namespace sim::testing {
 
 inline constexpr double kCell = 0.288;
@@ -84,17 +86,19 @@ struct GridParts {
         for (std::size_t e = 0; e < contact.size(); ++e) points.push_back(contact.position(e, state.x));
         particles.toFaces(fabric.mass, points, state);
     }
-    VertexStiffness::Assembled assembleForces(double h)
+    /// Contact and stiffness.
+    std::pair<ElementContact::Assembled, VertexStiffness::Assembled> assembleForces(double h)
     {
-        contact.assemble(state);
-        return stiffness.assemble(state, 0.0, h, {}, {});
+        const ElementContact::Assembled ofContact = contact.assemble(state);
+        return {ofContact, stiffness.assemble(state, 0.0, h, {}, {})};
     }
-    void assemble(double h)
+    FaceSystem::Begun assemble(double h)
     {
         toFaces();
-        const VertexStiffness::Assembled assembled = assembleForces(h);
-        system.begin(particles, h);
-        system.assemble(assembled);
+        const auto [ofContact, ofStiffness] = assembleForces(h);
+        const FaceSystem::Begun begun = system.begin(particles, h);
+        system.assemble(begun, ofStiffness, ofContact);
+        return begun;
     }
     /// Random numbers at faces with mass and twist angles.
     FaceVector randomVector(unsigned seed) const

@@ -36,7 +36,7 @@ double relativeErrorOfSystem(std::vector<FabricPiece> pieces, double pressed)
 {
     GridParts parts(pieces, gridSettings(TransferMethod::PolyPic));
     if (pressed > 0.0) press(parts.state, pressed, 1, 0.0);
-    parts.assemble(kStep);
+    const FaceSystem::Begun begun = parts.assemble(kStep);
     const FaceVector p = parts.randomVector(3);
     FaceVector ap, before, after;
     ap.resize(parts.system.blocks(), parts.system.edges());
@@ -44,7 +44,7 @@ double relativeErrorOfSystem(std::vector<FabricPiece> pieces, double pressed)
 
     const FabricState start = parts.state;
     FabricMotion motion;
-    parts.system.findMotion(p.faces, motion);
+    parts.system.findMotion(begun, p.faces, motion);
     const auto& [g, u] = motion;
     const auto impulsesAt = [&](double step, FaceVector& out) {
         parts.state = start;

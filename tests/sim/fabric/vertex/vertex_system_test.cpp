@@ -68,14 +68,14 @@ TEST(VertexSystem, NewtonMoveTakesTheForcesAway)
         const ElasticStep step = system.startStep(state);
         const NewtonPoint point{step, state, fabric.rest, freeAngles, inertia, kStep};
 
-        system.assemble(point, {}, &contact.activeAt(state.x, clock));
+        system.assemble(point, {}, &contact.activeAt(state.x, clock).pairs());
         const double before = gradientNorm(system);
         const LinearReport linear = system.solve({1.0e-10, 0.0, 1.0e30}, true, 500);
         EXPECT_LT(linear.iterations, 300) << name;
         for (std::size_t v = 0; v < state.x.size(); ++v) state.x[v] += system.move(static_cast<int>(v));
         for (std::size_t e = 0; e < state.theta.size(); ++e) state.theta[e] += system.turn(static_cast<int>(e));
         system.rods().transportFrames(state);
-        system.assemble(point, {}, &contact.activeAt(state.x, clock));
+        system.assemble(point, {}, &contact.activeAt(state.x, clock).pairs());
         EXPECT_LT(gradientNorm(system), 1.0e-2 * before) << name;
         for (int v : fabric.pins.vertex) EXPECT_EQ(system.move(v), Vec3::Zero()) << name;
     }
