@@ -104,7 +104,9 @@ void LiquidAround::addTile(const Pack* tile, const std::array<int, 27>& blocks)
 /// Liquid in the cells that are reached.
 void LiquidAround::collect(const SortedParticles& sorted)
 {
-    const auto& [liquid, order, grid] = sorted;
+    const Particles& liquid = sorted.particles;
+    const ParticleOrder& order = sorted.order;
+    const BlockGrid& grid = sorted.grid;
     constexpr int kTile = CellStencil::kTileEdge * CellStencil::kTileEdge * CellStencil::kTileEdge;
     tiles_.resize(near_.size() * kTile * kLanes);
     const auto tileOf = [&](std::size_t part) { return reinterpret_cast<Pack*>(tiles_.data()) + part * kTile; };
