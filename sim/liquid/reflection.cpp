@@ -60,12 +60,22 @@ void findPressureAtSurface(const CutGrid& cut, const PressureSystem& system, con
     });
 }
 
+/// Are there cells at the surface in a block, or in those below it along the axes, whose pressure acts on its faces?
+bool hasSurface(const BlockGrid& grid, const BlockBits<>& surface, int block)
+{
+    const auto any = [&](int b) {
+        return std::any_of(surface.block(b), surface.block(b) + BlockBits<>::kWords, [](std::uint64_t bits) { return bits != 0; });
+    };
+    return any(block) || std::any_of(std::begin(kBlockBelow), std::end(kBlockBelow), [&](int below) { return any(grid.neighbours(block)[below]); });
+}
+
 /// Add what the pressure at the surface does to the faces between liquid and air.
 void pressOnSurface(const CutGrid& cut, const PressureSystem& system, const BlockArray<double>& pressure, BlockArray<double, 3>& velocities)
 {
     const BlockBits<>& inside = system.liquid().inside;
     parallelFor(cut.grid.count(), 2, [&](std::size_t n) {
         const int b = static_cast<int>(n);
+        if (!hasSurface(cut.grid, system.liquid().surface, b)) return;
         const BitAccess bits(cut.grid, b);
         for (int a = 0; a < kAxes; ++a)
             forEachPressureFace(cut, system, pressure, b, a, [&](int row, PackMask, Pack change) {
