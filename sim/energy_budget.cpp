@@ -105,9 +105,12 @@ void EnergyBudget::after(EnergyChange change)
     last_ = now;
 }
 
-void EnergyBudget::taken(EnergyChange change)
+void EnergyBudget::taken(EnergyChange change, std::span<const Vec3> pinImpulse)
 {
     if (!changes_) return;
+    const double held = parallelSum(pinImpulse.size(), [&](std::size_t v) { return -pinImpulse[v].dot(state_.fabric.v[v]); });
+    book(EnergyChange::Pins, held);
+    book(change, -held);
     const Energy now = currentEnergy();
     const double lifted = std::max(0.0, now.potential - last_.potential - settings_.gravity.dot(now.fabricMoment - last_.fabricMoment));
     book(EnergyChange::Suction, lifted);

@@ -6,6 +6,8 @@
 #include "sim/step_report.h"
 #include "sim/workspace.h"
 
+#include <span>
+
 namespace sim {
 
 /// Books what each part of a step does to the energy of liquid and fabric, as the difference before and after it on the carrier it works
@@ -40,8 +42,10 @@ class EnergyBudget {
     void toParticles(double dt, const PushOutTotals& pushed);
     /// Books the energy difference since the previous call under this change.
     void after(EnergyChange change);
-    /// Fabric has taken liquid up, or moved some within itself: where pores lift it that is suction's work; velocities mix.
-    void taken(EnergyChange change);
+    /// Fabric has taken liquid up, or moved some within itself: where pores lift it that is suction's work; pins bring what comes to their vertices to
+    /// their speed; other velocities mix.
+    /// @param pinImpulse  momentum that pins held back of each vertex [g cm/s]
+    void taken(EnergyChange change, std::span<const Vec3> pinImpulse);
     /// Liquid and fabric have been solved for, over dt [s].
     /// @param gravity  that acted on the fabric: meanGravity [cm/s^2]
     void solved(const std::optional<Mixture::SeparatedPhases>& separated, double dt, const Vec3& gravity, const FabricReport& fabric);

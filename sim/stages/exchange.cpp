@@ -35,7 +35,7 @@ void capture(StepContext& c)
     c.report.capturedMass = c.plan.uptake->mass;
     watch.expectKept(c.plan.uptake->pinImpulse);
     c.work.momentum.exchanged(state, c.plan.uptake->pinImpulse);
-    c.energy.taken(EnergyChange::Capture);
+    c.energy.taken(EnergyChange::Capture, c.plan.uptake->pinImpulse);
 }
 
 void deleteCaptured(StepContext& c)
@@ -57,7 +57,7 @@ void wick(StepContext& c)
         coupling.wicking.move(c.dt, c.gravityOnFabric(), state.grid, state.pressure, coupling.velocityBefore, state.fabric);
     watch.expectKept(pinImpulse);
     c.work.momentum.exchanged(state, pinImpulse);
-    c.energy.taken(EnergyChange::Wicking);
+    c.energy.taken(EnergyChange::Wicking, pinImpulse);
 }
 
 void drip(StepContext& c)

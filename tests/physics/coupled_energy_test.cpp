@@ -104,6 +104,26 @@ TEST_P(CoupledSolvers, SuctionMovesHardlyAnythingButTheWaterThatItDraws)
     }
 }
 
+/// Water that comes to a vertex on a pin gets the pin's speed from the pin: what drinking and wicking do themselves only mixes velocities.
+TEST(WaterThatPinsLead, HasItsSpeedFromThePins)
+{
+    for (FabricSolver solver : {FabricSolver::Off, FabricSolver::Vertex, FabricSolver::Grid})
+        for (unsigned seed = 1; seed <= 4; ++seed) {
+            Simulation run(wetOnMovingPins(seed, solver));
+            run.bookEnergy();
+            double drunk = 0.0;
+            while (run.state().time < 0.03) {
+                const StepReport report = run.step(0.03);
+                const double kinetic = report.energies.kinetic + report.energies.modal + report.energies.fabric.kinetic;
+                drunk += report.capturedMass;
+                for (EnergyChange change : {EnergyChange::Wicking, EnergyChange::Capture})
+                    EXPECT_LE(std::as_const(*report.energyChanges)[change], 1.0e-12 * kinetic)
+                        << kEnergyChangeNames[static_cast<int>(change)] << ' ' << seed;
+            }
+            EXPECT_GT(drunk, 0.0);
+        }
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, CoupledSolvers, ::testing::Values(FabricSolver::Vertex, FabricSolver::Grid),
                          [](const auto& solver) { return solver.param == FabricSolver::Grid ? "grid" : "vertex"; });
 

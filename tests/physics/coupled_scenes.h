@@ -251,4 +251,35 @@ inline Scene drivenCloth(unsigned seed, FabricSolver solver)
     return scene;
 }
 
+/// A patchy wet sheet, or weave, of which pins lead some vertices to and fro, with a drop that it drinks; nothing weighs anything.
+inline Scene wetOnMovingPins(unsigned seed, FabricSolver solver)
+{
+    Random random(seed);
+    Scene scene = longSteps("wet on moving pins", random, solver);
+    scene.settings.gravity.setZero();
+    scene.settings.transfer.method = seed % 2 == 0 ? TransferMethod::Flip : TransferMethod::PolyPic;
+    for (int n = 0; n < 3; ++n) {
+        const Vec3 at(0.0, 0.25 * n, 0.0);
+        ClothGrid grid;
+        grid.nodes = Vec2i(7, 5);
+        grid.spacing = {0.12, 0.12};
+        grid.origin = at - Vec3(0.36, 0.0, 0.24);
+        FabricPiece piece = n == 1 ? testing::pieceOf(strand(at - 0.5 * Vec3::UnitX(), at + 0.5 * Vec3::UnitX(), 9), testing::wool(), {0.03, 0.03})
+                                   : testing::pieceOf(clothGrid(grid), testing::wool(), {0.02, 0.02});
+        piece.wetness = 0.4 * n;
+        PinGroup hold;
+        for (int v = 0; v < static_cast<int>(piece.points.size()); ++v)
+            if (random(0.0, 1.0) < 0.4) hold.vertices.push_back(v);
+        for (double t = 0.0; t < 0.03; t += 0.01) hold.motion.addTranslation(t, t + 0.01, 0.3 * random.direction(), 0.0, 0.0);
+        piece.pins.push_back(hold);
+        scene.fabrics.push_back(piece);
+    }
+    SourceSettings source;
+    source.name = "drop";
+    source.shape = Shape::ball(Vec3(0.0, 0.1, 0.0), 0.3);
+    source.emissions.push_back({});
+    scene.sources.push_back(source);
+    return scene;
+}
+
 }  // namespace sim::test
