@@ -7,6 +7,7 @@
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/pressure.h"
+#include "sim/liquid/pressure_beyond.h"
 #include "sim/liquid/reflection.h"
 #include "sim/liquid/strain_correction.h"
 #include "sim/liquid/surface_tension.h"
@@ -42,6 +43,7 @@ struct Workspace {
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;
     FreeLiquid free;
+    PressureBeyond beyond;
     SurfaceTensionWorkspace surfaceTension;
     std::array<AlignedArray<double>, kAxes> displacement;  ///< displacement of each particle by relaxation [cm]
     std::array<AlignedArray<double>, kAxes> places;        ///< particle positions before advection, if there are obstacles [cm]

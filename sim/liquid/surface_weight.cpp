@@ -129,71 +129,104 @@ double levelOf(std::span<const double> full, double mass)
 }
 
 /// Weights of the faces of a column that is even: what the splines of its particles would leave there if the liquid filled it up to a level.
-/// What is about a cell above it goes to the faces below, so that sum and centre stay: the cell below such a face is on the verge of having a
-/// pressure, and weights, which the pressure of its neighbours balances, must not depend on whether it has (Rest.OfALevelInAPlaneOfFacesLasts).
 /// @param full  faces' masses when they are full [g]; out: the weights
 /// @param mass  of all [g]
-/// @param free  has the highest face no pressure? Then all of its weight goes.
-void fillEvenly(std::span<double> full, double mass, bool free)
+/// @return  the level, above the lowest face [cells]
+double fillEvenly(std::span<double> full, double mass)
 {
-    constexpr double kStays = 0.95, kGoes = 1.0;  // above the level [cells]
     const double level = levelOf(full, mass);
     for (std::size_t n = 0; n < full.size(); ++n) full[n] *= shareBelow(level - static_cast<double>(n));
-    for (std::size_t n = full.size() - 1; n > 1; --n) {
-        const double height = static_cast<double>(n) - level;
-        const double part = free && n + 1 == full.size() ? 1.0 : std::clamp((height - kStays) / (kGoes - kStays), 0.0, 1.0);
-        const double moved = part * full[n];
-        full[n] -= moved;
-        full[n - 1] += 2.0 * moved;
-        full[n - 2] -= moved;
-    }
+    return level;
 }
 
-/// Put the weight of a column where its liquid would be if it were even.
-/// @param told  of what each face gets
-void level(const Column& column, const ObstacleField& obstacles, int axis, double gravityStep, LiquidGrid& liquid,
-           const std::optional<LiquidOnSolids::Levelling>& told)
-{
-    std::array<double, kSurfaceColumn> mass;
-    double above = 0.0;
-    for (int n = 0; n < column.size; ++n)
-        above += mass[n] = liquid.faces.sums.block(column.face[n].block, FaceFields::kMass + axis)[column.face[n].cell];
-    std::array<double, kSurfaceColumn> evenly;
-    for (int n = 0; n < column.size; ++n) evenly[n] = liquid.fullMass * obstacles.room(column.face[n].block, axis)[column.face[n].cell];
-    fillEvenly(std::span(evenly).first(column.size), above, column.isTopFree);
-    double rest = above;
-    for (int n = 0; n < column.size; ++n) {
-        const auto [block, cell] = column.face[n];
-        above -= mass[n];
-        const double least = rest - kMostWeight * above,
-                     weight = n + 1 == column.size ? rest : std::clamp(evenly[n], least, std::min(rest, kMostWeight * mass[n]));
-        rest -= weight;
-        const double change = gravityStep * (weight / mass[n] - 1.0);
-        liquid.faces.velocity.block(block, axis)[cell] += change;
-        if (told) told->weightGrew(block, axis, cell, mass[n] * change);
+/// Puts the weight of columns along an axis where their liquid would be if it were even.
+struct Levelling {
+    const CutGrid& cut;
+    int axis;
+    double gravityStep;  ///< what weight has given to velocities along the axis [cm/s]
+    LiquidGrid& liquid;
+    const std::optional<LiquidOnSolids::Levelling>& told;
+    PressureBeyond& beyond;
+
+    /// Weights of a column's faces [g] as if it were even, by which none has much more than its own mass.
+    /// @param weight  out
+    /// @return  the level of the even column, above its lowest face [cells]
+    double findWeights(const Column& column, const std::array<double, kSurfaceColumn>& mass, std::array<double, kSurfaceColumn>& weight) const
+    {
+        for (int n = 0; n < column.size; ++n) weight[n] = liquid.fullMass * cut.field.room(column.face[n].block, axis)[column.face[n].cell];
+        double above = std::accumulate(mass.begin(), mass.begin() + column.size, 0.0), rest = above;
+        const double level = fillEvenly(std::span(weight).first(column.size), above);
+        for (int n = 0; n < column.size; ++n) {
+            above -= mass[n];
+            const double least = rest - kMostWeight * above;
+            if (n + 1 == column.size) weight[n] = rest;
+            else weight[n] = std::clamp(weight[n], least, std::min(rest, kMostWeight * mass[n]));
+            rest -= weight[n];
+        }
+        return level;
     }
-}
+
+    /// The cell above the highest face with a pressure bears the face above it, if there is one, and presses on the face below.
+    /// @param level  of the column above its lowest face [cells]
+    void bearTop(const Column& column, double level, std::array<double, kSurfaceColumn>& weight) const
+    {
+        const int top = column.size - 1, highest = column.isTopFree ? top - 1 : top;
+        const CellRef &below = column.face[highest], &above = column.face[top];
+        const CellRef cell = gravityStep < 0.0 ? below : column.isTopFree ? above : beside(below, -1);
+        double impulse = 0.0;
+        if (column.isTopFree) {
+            impulse = std::abs(gravityStep) * weight[top] / cut.field.room(above.block, axis)[above.cell];
+            weight[highest] += weight[top];
+            weight[top] = 0.0;
+        }
+        if (cell.block != cut.grid.count()) beyond.bear(axis, cell, impulse, level - highest + kSurfaceColumn);
+    }
+    CellRef beside(const CellRef& face, int step) const
+    {
+        Vec3i at(face.cell & 7, face.cell >> 3 & 7, face.cell >> 6);
+        at[axis] += step;
+        return cellNear(cut.grid, face.block, at.x(), at.y(), at.z());
+    }
+
+    void operator()(const Column& column) const
+    {
+        std::array<double, kSurfaceColumn> mass{}, weight{};
+        for (int n = 0; n < column.size; ++n) mass[n] = liquid.faces.sums.block(column.face[n].block, FaceFields::kMass + axis)[column.face[n].cell];
+        const double level = findWeights(column, mass, weight);
+        bearTop(column, level, weight);
+        for (int n = 0; n < column.size; ++n) {
+            const auto [block, cell] = column.face[n];
+            const double change = gravityStep * (weight[n] / mass[n] - 1.0);
+            liquid.faces.velocity.block(block, axis)[cell] += change;
+            if (told) told->weightGrew(block, axis, cell, mass[n] * change);
+        }
+    }
+};
 
 }  // namespace
 
-void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids)
+void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids,
+                 PressureBeyond& beyond)
 {
     if (std::ranges::none_of(bodies.free().bodies, [](const FreeLiquid::Body& body) { return body.isHeld; })) return;
     std::optional<LiquidOnSolids::Levelling> told;
     if (onSolids != nullptr) told = onSolids->meetLevelling();
+    beyond.begin(cut.grid.count(), gravityStep);
     for (int a = 0; a < kAxes; ++a) {
         if (gravityStep[a] == 0.0) continue;
         const SurfaceColumns columns(cut, bodies, a, gravityStep[a] < 0.0 ? 1 : -1);
+        const Levelling level{cut, a, gravityStep[a], liquid, told, beyond};
         parallelFor(cut.grid.count(), 4, [&](std::size_t n) {
             const int b = static_cast<int>(n);
             const BitAccess access(cut.grid, b);
             for (int k = 0; k < kBlockEdge; ++k)
                 for (std::uint64_t left = columns.shallow(access, b, k); left != 0; left &= left - 1) {
                     const Column column = columns.from({b, 64 * k + std::countr_zero(left)});
-                    if (column.size > 1) level(column, cut.field, a, gravityStep[a], liquid, told);
+                    if (column.size > 1) level(column);
                 }
         });
     }
+    beyond.push(cut, bodies, liquid, told);
 }
 
 }  // namespace sim

@@ -98,7 +98,7 @@ void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnS
         std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
         work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.bare);
     }
-    levelWeight(c.cut(), bodies, c.fallTime() * c.settings().gravity, work.grid, onSolids);
+    levelWeight(c.cut(), bodies, c.fallTime() * c.settings().gravity, work.grid, onSolids, work.beyond);
 }
 
 }  // namespace

@@ -148,8 +148,8 @@ double lowWaveError(const LowWave& low)
     return result.periodError;
 }
 
-/// Without the inertia of stretching what is left is the divergence of interpolated velocities, (k dx)²/48, and what the lattice of the particles and the
-/// correction of the volume do to waves of less than .3 cells.
+/// Without the inertia of stretching what is left is the divergence of interpolated velocities, (k dx)²/48, and of fourth order what the lattice of the
+/// particles, the faces beyond the surface and the correction of the volume do to waves of less than .3 cells.
 TEST(Sloshing, PeriodOfLowWavesIsOfSecondOrder)
 {
     double coarsest = 0.0, finest = 0.0;
@@ -157,13 +157,12 @@ TEST(Sloshing, PeriodOfLowWavesIsOfSecondOrder)
         const double kDx = 2.0 * kPi / cells;
         const double error = finest = lowWaveError({cells, 2});
         if (cells == 12) coarsest = error;
-        EXPECT_NEAR(error, kDx * kDx / 48.0, 4.0e-3) << cells;
+        EXPECT_NEAR(error, kDx * kDx / 48.0, 0.3 * std::pow(kDx, 4)) << cells;
     }
-    EXPECT_LT(std::abs(finest), 1.2e-3);
+    EXPECT_LT(std::abs(finest), 1.3e-3);
     EXPECT_GT(std::log(std::abs(coarsest / finest)) / std::log(32.0 / 12.0), 1.8);
-    EXPECT_LT(std::abs(lowWaveError({16, 2})), 5.0e-3);
-    for (const Transfer& transfer : {kApic, kPoly27}) EXPECT_LT(std::abs(lowWaveError({16, 2, transfer})), 5.0e-3) << transfer.name;
-    EXPECT_LT(std::abs(lowWaveError({16, 2, kPoly8, TimeIntegrator::Plain})), 5.0e-3);
+    for (const Transfer& transfer : {kApic, kPoly8, kPoly27}) EXPECT_LT(std::abs(lowWaveError({16, 2, transfer})), 9.0e-3) << transfer.name;
+    EXPECT_LT(std::abs(lowWaveError({16, 2, kPoly8, TimeIntegrator::Plain})), 9.0e-3);
 }
 
 /// As published it has the inertia of stretching; what shortens the periods of low waves otherwise is as large as with order 2.

@@ -77,7 +77,8 @@ void levelIn(GridScene& scene, const PressureSystem& system)
     LiquidOnSolids onSolids;
     onSolids.begin(scene.cut(), scene.liquid.faces);
     FreeLiquid bodies;
-    levelWeight(scene.cut(), findHeldBodies(scene.grid, system, findUnheldFaces(scene.cut(), bodies)), kFall, scene.liquid, &onSolids);
+    PressureBeyond beyond;
+    levelWeight(scene.cut(), findHeldBodies(scene.grid, system, findUnheldFaces(scene.cut(), bodies)), kFall, scene.liquid, &onSolids, beyond);
 }
 
 double largestSpeed(GridScene& scene)
