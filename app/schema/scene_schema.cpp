@@ -86,12 +86,12 @@ void addNamesOfFormulas(SchemaJson& section)
     section["properties"]["flow"].update(three);
 }
 
-/// Pairs of numbers.
+/// Rows of two numbers, or of four with a band.
 SchemaJson tableSchema()
 {
     const SchemaJson number = {{"anyOf", {{{"type", "number"}}, {{"type", "string"}}}}};
-    const SchemaJson pair = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
-    return listSchema(pair, 1);
+    const auto rowsOf = [&](int count) { return listSchema({{"type", "array"}, {"items", number}, {"minItems", count}, {"maxItems", count}}, 1); };
+    return {{"anyOf", {rowsOf(2), rowsOf(4)}}};
 }
 
 /// @param list  of what is read as the scene runs
