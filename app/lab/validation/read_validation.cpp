@@ -46,8 +46,7 @@ std::optional<Validation> readValidation(const LoadedScene& setup)
         v.text("source", validation.source, "Who found what is expected");
         v.choice("kind", validation.kind, "Where it is known from: theory, or measured in an experiment");
         v.formula("every", "Time between two readings [s], above 0");
-        v.other("let", "Names for formulas");
-        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
+        describeContext(v);
         v.other("quick", "What drench validate --quick changes, so that the run is short");
         v.other("checks", "What is compared");
     });
