@@ -4,6 +4,7 @@
 #include "sim/core/types.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/scene/formula.h"
+#include "sim/shapes/motion.h"
 
 #include <array>
 #include <limits>
@@ -23,6 +24,14 @@ struct ControlSurface {
     sim::Vec3 center = sim::Vec3::Zero();                     ///< [cm]
     sim::Vec3 normal = sim::Vec3::UnitY();                    ///< normal of length 1
     double radius = std::numeric_limits<double>::infinity();  ///< [cm]
+    sim::Motion motion = {};                                  ///< motion of the obstacle that it moves with
+
+    /// The surface where it is at a time [s].
+    ControlSurface at(double time) const
+    {
+        const Eigen::Isometry3d place = motion.transform(time);
+        return {place * center, place.linear() * normal, radius, motion};
+    }
 };
 
 /// Pressures on discs, summed up over steps that follow each other.
@@ -106,7 +115,7 @@ class Measures {
     double surfaceAt(int axis, double b, double c) const;
     double velocityAt(int axis, const sim::Vec3& x) const;
     double saturationAt(const sim::Vec3& x) const;
-    double fluxThrough(const ControlSurface& surface) const;
+    double fluxThrough(const ControlSurface& resting) const;
     double front(int axis, double where) const;
 
     sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;

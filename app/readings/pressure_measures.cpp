@@ -49,7 +49,7 @@ void Measures::sumPressures()
     const double dt = simulation_->state().lastDt;
     totals.time += dt;
     std::size_t n = 0;
-    for (const std::string& name : discs_) totals.sums[n++] += dt * pressureOn(controlSurfaces_.at(name), *simulation_);
+    for (const std::string& name : discs_) totals.sums[n++] += dt * pressureOn(controlSurfaces_.at(name).at(simulation_->state().time), *simulation_);
 }
 
 double Measures::meanPressureOn(const std::string& name)

@@ -53,12 +53,13 @@ std::string panel(const CaseResult& result, std::size_t i)
 
 std::string plotScript(const CaseResult& result, const std::string& picture)
 {
-    const std::size_t panels = result.readings.size();
+    constexpr std::size_t kMostInRow = 4;
+    const std::size_t panels = result.readings.size(), rows = (panels + kMostInRow - 1) / kMostInRow, columns = (panels + rows - 1) / rows;
     std::string text = fmt::format(
-        "set terminal pngcairo size {},420 font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
-        "set multiplot layout 1,{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
+        "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
+        "set multiplot layout {},{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
         "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset format y '%.4g'\n",
-        std::max<std::size_t>(480, 400 * panels), gnuplotText(picture), panels, gnuplotText(result.setup.scene.title));
+        std::max<std::size_t>(480, 400 * columns), 380 * rows + 40, gnuplotText(picture), rows, columns, gnuplotText(result.setup.scene.title));
     for (std::size_t i = 0; i < panels; ++i) text += panel(result, i);
     return text + "unset multiplot\n";
 }
@@ -77,8 +78,9 @@ std::string rowOf(const CaseResult& result, std::size_t i)
 {
     const Check& check = result.validation.checks[i];
     const Finding& finding = result.findings[i];
-    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name, withUnit(finding.value, check.unit),
-                       withUnit(finding.expected, check.unit), deviation(finding), bounds(check), verdict(result, i));
+    const std::string unit = check.hasCurve() ? "" : check.unit;  // errors and shares have none
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name, withUnit(finding.value, unit),
+                       withUnit(finding.expected, unit), deviation(finding), bounds(check), verdict(result, i));
 }
 
 std::string rowsOf(const CaseResult& result)

@@ -185,6 +185,33 @@ output:
     EXPECT_EQ(read.at("far [-]").back(), 0.0);
 }
 
+/// A disc on the side of a tank that is lifted stays in the same depth; through a plane that rises with it nothing goes.
+TEST_F(ProbedRuns, ControlSurfacesMoveWithTheirObstacles)
+{
+    writeFile(folder / "lift.yaml", R"yaml(drench: 1
+scene: {name: lift}
+time: {dt: 2.5e-3, duration: 0.1}
+grid: {cell: 0.25}
+liquid: {sources: [{name: water, shape: {box: {min: [0, 0, 0], max: [4, 3, 1]}}, velocity: [0, 10, 0]}]}
+obstacles:
+  - {name: tank, shape: {box: {min: [0, 0, 0], max: [4, 9, 1]}}, inside: true, motion: [{t: [0, 1], ease: [0, 0], translate: [0, 10, 0]}]}
+output:
+  probes:
+    every: 2.0e-2
+    control_surfaces:
+      side: {center: [0, 1, 0.5], normal: [1, 0, 0], radius: 0.2, moves_with: tank}
+      middle: {center: [2, 1.5, 0.5], normal: [0, 1, 0], moves_with: tank}
+      resting: {center: [2, 1.5, 0.5], normal: [0, 1, 0]}
+    readings: [{name: side, read: pressure_on("side")}, {name: middle, read: flux("middle")}, {name: resting, read: flux("resting")}]
+)yaml");
+    const ChildExit end = drench({"run", "lift.yaml", "--no-video", "--no-frames", "--threads", "1", "--out", "lift"});
+    ASSERT_EQ(end.code, 0) << end.errorText;
+    const auto read = table("lift/probes.csv");
+    EXPECT_NEAR(read.at("side [-]")[4], 981.0 * 2.0, 100.0);
+    EXPECT_NEAR(read.at("resting [-]")[4], 40.0, 4.0);
+    EXPECT_NEAR(read.at("middle [-]")[4], 0.0, 2.0);
+}
+
 /// A jet that a plate stops presses there by half its density times its speed squared, whether steps reflect or not: of two of which the first does
 /// both tell only together how much.
 TEST_F(ProbedRuns, PressureOnADiscIsThatOfStagnation)
@@ -228,6 +255,8 @@ TEST_F(ProbedRuns, MistakesAreToldInOneLineBeforeAnythingIsBegun)
     refused("{readings: [{read: 'pressure_on(\"gate\")'}]}", "there is no control surface \"gate\"");
     refused("{control_surfaces: {a: {center: [0, 0, 0], normal: [0, 1, 0]}}, readings: [{read: 'pressure_on(\"a\")'}]}",
             "the control surface \"a\" has no radius: a pressure is the mean over a disc");
+    refused("{control_surfaces: {a: {center: [0, 0, 0], normal: [0, 1, 0], moves_with: boat}}, readings: [{read: t}]}",
+            "moves_with: there is no obstacle \"boat\": there are none");
     refused("{readings: [{read: 'force_x(\"gate\")'}]}", "no obstacle and no fabric");
     refused("{every: 0, readings: [{read: liquid_y}]}", "above 0 s");
     refused("{readings: [{read: liquid_y, name: 'a, b'}]}", "no commas");
