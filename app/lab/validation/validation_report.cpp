@@ -14,6 +14,9 @@ namespace app {
 
 namespace {
 
+/// What is compared with, as tables and plots call it.
+const char* knownAs(KnownFrom kind) { return kind == KnownFrom::Measured ? "measured" : "known"; }
+
 std::string withUnit(double value, const std::string& unit)
 {
     return std::isfinite(value) ? fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit) : "-";
@@ -47,7 +50,8 @@ std::string panel(const CaseResult& result, std::size_t i)
                                    gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
     if (check.hasBand())
         text += fmt::format("{0} skip 1 using ($1=={1}?$2:NaN):5:6 with filledcurves fc rgb '#dddddd' fs solid noborder title 'scatter', ", file, i);
-    if (hasLine(check)) text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title 'known', ", file, column(4));
+    if (hasLine(check))
+        text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title '{}', ", file, column(4), knownAs(result.validation.kind));
     return text + fmt::format("{} skip 1 {} with lines lw 2 lc rgb '{}' title 'found'\n", file, column(3), kPlotColors[2]);
 }
 
@@ -112,9 +116,8 @@ std::string findingsTable(const std::vector<CaseResult>& results)
     for (const KnownFrom kind : {KnownFrom::Theory, KnownFrom::Measured}) {
         const auto isOfIt = [&](const CaseResult& result) { return result.validation.kind == kind; };
         if (std::ranges::none_of(results, isOfIt)) continue;
-        const bool isMeasured = kind == KnownFrom::Measured;
         text += fmt::format("{}## {}\n\n| case | check | found | {} | deviation | allowed | |\n|---|---|---:|---:|---:|---|---|\n",
-                            text.empty() ? "" : "\n", isMeasured ? "Measured" : "Theory", isMeasured ? "measured" : "known");
+                            text.empty() ? "" : "\n", kind == KnownFrom::Measured ? "Measured" : "Theory", knownAs(kind));
         for (const CaseResult& result : results)
             if (isOfIt(result)) text += rowsOf(result);
     }
