@@ -102,9 +102,11 @@ void visitLogs(V& v, Logs& logs)
     v.number("logs/energy_bytes", "-", logs.energyBytes);
     v.number("logs/ledger_bytes", "-", logs.ledgerBytes);
     v.number("logs/probes_bytes", "-", logs.probesBytes);
-    v.number("logs/since_reading/time", "s", logs.sinceReading.time);
-    v.number("logs/since_reading/first_time", "s", logs.sinceReading.firstTime);
-    v.list("logs/since_reading/numbers", "cgs", logs.sinceReading.numbers);
+    v.number("logs/since_reading/time", "s", logs.sinceReading.forces.time);
+    v.number("logs/since_reading/first_time", "s", logs.sinceReading.forces.firstTime);
+    v.list("logs/since_reading/numbers", "cgs", logs.sinceReading.forces.numbers);
+    v.number("logs/since_reading/pressure_time", "s", logs.sinceReading.pressures.time);
+    v.list("logs/since_reading/pressures", "dyn s/cm^2", logs.sinceReading.pressures.sums);
     EnergyLedger::Summary ledger = logs.summary.energyLedger.value_or(EnergyLedger::Summary());
     v.number("logs/ledger/first", "erg", ledger.first);
     v.number("logs/ledger/largest_kinetic", "erg", ledger.largestKinetic);

@@ -55,6 +55,7 @@ void addValidate(CLI::App& program, Options& options)
     validate->add_option("case", options.cases, "names in scenes/validation (default: all)");
     validate->add_option("--out", options.out, "folder of the report");
     validate->add_option("--threads", options.threads, "threads of the simulation (default: all)")->check(CLI::Range(1, kMaxThreads));
+    validate->add_option("--set", options.sets, "override a key of the cases: dotted.key=value")->take_all()->allow_extra_args(false);
     auto* quick = validate->add_flag("--quick", options.quick, "shorter or coarser, within minutes");
     validate->add_flag("--full", options.full, "as the scenes are written (default)")->excludes(quick);
     validate->callback([&options] { options.verb = Verb::Validate; });

@@ -4,11 +4,15 @@ namespace app {
 
 double smoothPressure(const sim::State& state, const sim::Vec3& place)
 {
-    const sim::BlockGrid& grid = state.grid;
+    return state.step == 0 ? 0.0 : smoothInLiquid(state.grid, state.pressure, place);
+}
+
+double smoothInLiquid(const sim::BlockGrid& grid, const sim::BlockArray<double>& field, const sim::Vec3& place)
+{
     const sim::Vec3 inCells = (place - grid.origin) / grid.dx;
     const sim::Vec3i blockCoords = (inCells / sim::kBlockEdge).array().floor().cast<int>();
     const int block = grid.find(blockCoords);
-    if (block == sim::BlockGrid::kNone || state.step == 0) return 0.0;
+    if (block == sim::BlockGrid::kNone) return 0.0;
 
     // From the middle of the lowest of the eight cells on, in cells.
     const sim::Vec3 middles = inCells - (sim::kBlockEdge * blockCoords).cast<double>() - sim::Vec3::Constant(0.5);
@@ -19,11 +23,11 @@ double smoothPressure(const sim::State& state, const sim::Vec3& place)
         const sim::Vec3i step(corner & 1, corner >> 1 & 1, corner >> 2);
         const sim::Vec3i cell = lowest + step;
         const sim::CellRef at = sim::cellNear(grid, block, cell.x(), cell.y(), cell.z());
-        const double pressure = state.pressure.block(at.block)[at.cell];
-        if (pressure == 0.0) continue;  // cells without one hold nothing else
+        const double value = field.block(at.block)[at.cell];
+        if (value == 0.0) continue;  // cells without a pressure hold nothing else
         double weight = 1.0;
         for (int axis = 0; axis < 3; ++axis) weight *= step[axis] == 1 ? above[axis] : 1.0 - above[axis];
-        sum += weight * pressure;
+        sum += weight * value;
         weights += weight;
     }
     return weights > 0.0 ? sum / weights : 0.0;

@@ -10,4 +10,7 @@ namespace app {
 /// first step.
 double smoothPressure(const sim::State& state, const sim::Vec3& place);
 
+/// The same of any field that cells without a pressure have 0 of.
+double smoothInLiquid(const sim::BlockGrid& grid, const sim::BlockArray<double>& field, const sim::Vec3& place);
+
 }  // namespace app

@@ -37,7 +37,7 @@ void LiveProbes::goBack(const LoadedScene& setup, double time)
 {
     if (!reader_) return;
     const Probes probes = reader_->probes();
-    reader_.emplace(probes, setup.scene.settings.time.start, time, ForceTotals());
+    reader_.emplace(probes, setup.scene.settings.time.start, time, IntervalTotals());
     const std::lock_guard lock(mutex_);
     waiting_.dropAfter = std::min(waiting_.dropAfter, time);
     std::erase_if(waiting_.readings, [&](const ProbeReading& reading) { return reading.time > time; });

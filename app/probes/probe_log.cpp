@@ -35,7 +35,7 @@ ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, doub
 }
 
 ProbeLog::ProbeLog(const std::filesystem::path& file, const Probes& probes, double start, double time, std::uintmax_t bytes,
-                   const ForceTotals& sinceReading)
+                   const IntervalTotals& sinceReading)
     : file_(file, bytes), reader_(probes, start, time, sinceReading)
 {
 }

@@ -20,7 +20,7 @@ class ProbeLog {
     ProbeLog(const std::filesystem::path& file, const Probes& probes, double start);
     /// Goes on behind the first `bytes` of the file, in a run that has come to this time [s].
     ProbeLog(const std::filesystem::path& file, const Probes& probes, double start, double time, std::uintmax_t bytes,
-             const ForceTotals& sinceReading);
+             const IntervalTotals& sinceReading);
 
     /// The state before the first step.
     void initial(const SimulationHandle& simulation);
@@ -29,7 +29,7 @@ class ProbeLog {
 
     bool isNew() const { return reader_.isNew(); }        ///< nothing was read yet
     std::uintmax_t size() const { return file_.size(); }  ///< size of the file [bytes]
-    const ForceTotals& sinceReading() const { return reader_.sinceReading(); }
+    const IntervalTotals& sinceReading() const { return reader_.sinceReading(); }
 
  private:
     void write(const ProbeReading& reading);

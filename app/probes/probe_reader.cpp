@@ -16,7 +16,7 @@ std::int64_t readingsUpTo(double time, double every) { return std::llround(std::
 
 }  // namespace
 
-ProbeReader::ProbeReader(const Probes& probes, double start, double time, const ForceTotals& sinceReading)
+ProbeReader::ProbeReader(const Probes& probes, double start, double time, const IntervalTotals& sinceReading)
     : probes_(probes), start_(start), next_(readingsUpTo(time - start, probes.every) + 1)
 {
     probes_.measures->setInterval(sinceReading);

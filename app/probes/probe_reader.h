@@ -26,7 +26,7 @@ class ProbeReader {
     /// @param start  of the run, from which readings are counted [s]
     ProbeReader(const Probes& probes, double start) : probes_(probes), start_(start) {}
     /// Goes on in a run that has come to this time [s].
-    ProbeReader(const Probes& probes, double start, double time, const ForceTotals& sinceReading);
+    ProbeReader(const Probes& probes, double start, double time, const IntervalTotals& sinceReading);
 
     /// Reads the state before the first step.
     ProbeReading initial(const SimulationHandle& simulation);
@@ -36,7 +36,7 @@ class ProbeReader {
 
     const Probes& probes() const { return probes_; }
     bool isNew() const { return next_ == 0; }  ///< nothing was read yet
-    const ForceTotals& sinceReading() const { return probes_.measures->interval(); }
+    const IntervalTotals& sinceReading() const { return probes_.measures->interval(); }
 
  private:
     ProbeReading read(const SimulationHandle& simulation);

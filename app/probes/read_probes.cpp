@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 namespace app {
 
 namespace {
@@ -41,32 +39,6 @@ std::vector<Vec3> pointsAlong(const Node& node, const std::string& path)
     std::vector<Vec3> points;
     for (int i = 0; i < count; ++i) points.emplace_back(from + (to - from) * i / (count - 1.0));
     return points;
-}
-
-ControlSurface controlSurfaceIn(const Node& node, const std::string& path)
-{
-    ControlSurface surface;
-    sim::SectionReader::read(&node, path, [&](auto& v) {
-        v.required("center", "a point in its plane, like center: [0, 2, 0]");
-        v.vector("center", surface.center, sim::Quantity::Length, "A point of the plane, the middle of the disc");
-        v.required("normal", "the direction through it that counts as positive, like normal: [0, -1, 0]");
-        v.vector("normal", surface.normal, sim::Quantity::None, "Direction through it that counts as positive");
-        v.numberOr("radius", surface.radius, std::numeric_limits<double>::infinity(), sim::Quantity::Length, sim::Range::above(0.0),
-                   "Of a disc; left out: the whole plane");
-        v.require(surface.normal.norm() > 0.0, "normal", "must be a direction, like [0, -1, 0]");
-    });
-    surface.normal.normalize();
-    return surface;
-}
-
-void readControlSurfaces(const Node* node, Measures& measures)
-{
-    if (!node) return;
-    const std::string path = sim::joinPath(kProbesPath, "control_surfaces");
-    if (!node->isMap())
-        sim::fail(node->location, path + ": needs names and surfaces, like {outlet: {center: [0, 2, 0], normal: [0, -1, 0]}}, not " + node->called());
-    for (std::size_t i = 0; i < node->keys.size(); ++i)
-        measures.addControlSurface(node->keys[i], controlSurfaceIn(node->items[i], sim::joinPath(path, node->keys[i])));
 }
 
 Probe probeIn(const Node& node, const std::string& path, std::size_t number, const ReadingContext& context)
@@ -115,14 +87,11 @@ std::optional<Probes> readProbes(const LoadedScene& setup)
     sim::SectionReader section(*node, kProbesPath);
     sim::SectionReader::read(node, kProbesPath, [](auto& v) {
         v.formula("every", "Time between readings; left out: that between frames [s]");
-        v.other("let", "Names for formulas");
-        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
-        v.other("control_surfaces", "Planes and discs through which flux(\"name\") is read");
+        describeContext(v);
         v.required("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
         v.other("readings", "What is read");
     });
     Probes probes{.every = setup.pictures.output.every, .all = {}, .measures = std::make_shared<Measures>(setup.scene)};
-    readControlSurfaces(node->find("control_surfaces"), *probes.measures);
     const ReadingContext context = readContext(section, setup.scene, *probes.measures);
     if (node->find("every")) probes.every = readInterval(section, context);
     const std::string path = sim::joinPath(kProbesPath, "readings");

@@ -20,7 +20,11 @@ std::optional<std::size_t> numberOf(const std::string& name, const std::vector<s
 
 }  // namespace
 
-void Measures::afterStep() { interval_.add(simulation_->forces()); }
+void Measures::afterStep()
+{
+    interval_.forces.add(simulation_->forces());
+    sumPressures();
+}
 
 std::vector<sim::FormulaNames::OfName> Measures::forces()
 {
@@ -45,8 +49,8 @@ Impulse Measures::meanOn(const std::string& name, bool byLiquid, bool byContact)
     if (obstacle && fabric) throw FormulaError(fmt::format("both an obstacle and a fabric are called \"{}\"", name));
     const std::size_t load = 2 * (obstacle ? *obstacle : forceNames_.obstacles.size() + *fabric);
     Impulse sum;
-    if (byLiquid) sum += interval_.mean(load);
-    if (byContact) sum += interval_.mean(load + 1);
+    if (byLiquid) sum += interval_.forces.mean(load);
+    if (byContact) sum += interval_.forces.mean(load + 1);
     return sum;
 }
 
@@ -59,7 +63,7 @@ Impulse Measures::meanOnPins(const std::string& name) const
         const ForceNames::Pins& pins = forceNames_.pins[i];
         if (pins.name != name && pins.own != name && forceNames_.fabrics[pins.fabric] != name) continue;
         isFound = true;
-        sum += interval_.mean(first + i);
+        sum += interval_.forces.mean(first + i);
     }
     if (!isFound) throw FormulaError(fmt::format("no pins and no fabric with pins are called \"{}\"", name));
     return sum;

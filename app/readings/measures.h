@@ -4,11 +4,13 @@
 #include "sim/core/types.h"
 #include "sim/particles/liquid_particles.h"
 #include "sim/scene/formula.h"
+#include "sim/shapes/motion.h"
 
 #include <array>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,26 @@ struct ControlSurface {
     sim::Vec3 center = sim::Vec3::Zero();                     ///< [cm]
     sim::Vec3 normal = sim::Vec3::UnitY();                    ///< normal of length 1
     double radius = std::numeric_limits<double>::infinity();  ///< [cm]
+    sim::Motion motion = {};                                  ///< motion of the obstacle that it moves with
+
+    /// The surface where it is at a time [s].
+    ControlSurface at(double time) const
+    {
+        const Eigen::Isometry3d place = motion.transform(time);
+        return {place * center, place.linear() * normal, radius, motion};
+    }
+};
+
+/// Pressures on discs, summed up over steps that follow each other.
+struct PressureTotals {
+    double time = 0.0;         ///< [s]
+    std::vector<double> sums;  ///< sums of each disc that is read, by their names in order: pressure times time [dyn s/cm^2]
+};
+
+/// What is summed up since the last reading.
+struct IntervalTotals {
+    ForceTotals forces;
+    PressureTotals pressures;
 };
 
 /// What a formula of a validation or a probe can read of a simulation as it is, in cgs. With a for x, y, z:
@@ -31,8 +53,11 @@ struct ControlSurface {
 ///  * heights: surface_x(y, z), surface_y(x, z) and surface_z(x, y) (where the liquid ends on the line through a point, upwards along the axis
 ///    [cm]: the highest place where its density, smoothed over a cell, is half of the densest there; no value where there is no liquid);
 ///  * at a point: velocity_a(x, y, z) (mean of the liquid within a cell of it, no value where there is none), saturation_at(x, y, z) (of the
-///    vertex of fabric next to it); through control surfaces, in probes: flux("outlet") (liquid that goes through [g/s]);
-///  * on the grid of the last step, 0 before the first: pressure(x, y, z), front_x(y), front_z(y), front_y(x) (middle
+///    vertex of fabric next to it);
+///  * of control surfaces: flux("outlet") (liquid that goes through [g/s]), pressure_on("sensor") (of a disc: mean over it, and over the steps
+///    since the last reading, 0 before the first; a disc at a wall has the pressure of the liquid beside it, half a cell from the wall [dyn/cm^2]);
+///  * on the grid of the last step, 0 before the first: pressure(x, y, z) (that of this step alone: the second of two, of which the first reflects,
+///    has hardly any part of what stops moving liquid; pressure_on has it), front_x(y), front_z(y), front_y(x) (middle
 ///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
 ///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
@@ -59,11 +84,12 @@ class Measures {
     void setSimulation(const SimulationHandle& simulation) { simulation_ = &simulation; }
     void addControlSurface(const std::string& name, const ControlSurface& surface) { controlSurfaces_[name] = surface; }
     sim::FormulaNames::OfName flux();
-    /// Readings of forces are means over the steps that were taken since.
+    sim::FormulaNames::OfName pressures();
+    /// Readings of forces, and of pressures on discs, are means over the steps that were taken since.
     void startInterval() { interval_ = {}; }
     void afterStep();
-    const ForceTotals& interval() const { return interval_; }
-    void setInterval(const ForceTotals& interval) { interval_ = interval; }
+    const IntervalTotals& interval() const { return interval_; }
+    void setInterval(const IntervalTotals& interval) { interval_ = interval; }
     /// Formulas of x, y, z, t.
     void setFlow(std::array<sim::Formula, sim::kAxes> flow) { flow_ = std::move(flow); }
 
@@ -84,10 +110,12 @@ class Measures {
     double flowError() const;
     double flowPart() const;
     double pressureAt(const sim::Vec3& x) const;
+    void sumPressures();
+    double meanPressureOn(const std::string& name);
     double surfaceAt(int axis, double b, double c) const;
     double velocityAt(int axis, const sim::Vec3& x) const;
     double saturationAt(const sim::Vec3& x) const;
-    double fluxThrough(const ControlSurface& surface) const;
+    double fluxThrough(const ControlSurface& resting) const;
     double front(int axis, double where) const;
 
     sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;
@@ -95,8 +123,9 @@ class Measures {
 
     double density_;  ///< density of the liquid [g/cm^3]
     ForceNames forceNames_;
-    ForceTotals interval_;
+    IntervalTotals interval_;
     std::map<std::string, ControlSurface> controlSurfaces_;
+    std::set<std::string> discs_;  ///< names of those on which formulas read pressures
     const SimulationHandle* simulation_ = nullptr;
     std::optional<std::array<sim::Formula, sim::kAxes>> flow_;
 };

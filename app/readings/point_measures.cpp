@@ -93,16 +93,19 @@ double Measures::saturationAt(const Vec3& x) const
 }
 
 /// Mass of liquid that goes through per time: of what is within a cell's length of the plane [g/s].
-double Measures::fluxThrough(const ControlSurface& surface) const
+double Measures::fluxThrough(const ControlSurface& resting) const
 {
     const sim::LiquidParticles& all = liquid();
-    const double dx = simulation_->state().grid.dx;
+    const sim::State& state = simulation_->state();
+    const double dx = state.grid.dx;
+    const ControlSurface surface = resting.at(state.time);
     double flux = 0.0;
     for (std::size_t p = 0; p < all.count; ++p) {
-        const Vec3 away = all.position(p) - surface.center;
+        const Vec3 place = all.position(p), away = place - surface.center;
         const double above = away.dot(surface.normal);
         if (std::abs(above) >= dx || (away - above * surface.normal).norm() > surface.radius) continue;
-        flux += all.mass[p] * all.velocity(p).dot(surface.normal) * hat(above / dx) / dx;
+        const Vec3 passing = all.velocity(p) - surface.motion.velocity(state.time, place);
+        flux += all.mass[p] * passing.dot(surface.normal) * hat(above / dx) / dx;
     }
     return flux;
 }

@@ -18,6 +18,15 @@ struct ReadingContext {
     sim::FormulaNames constant;
 };
 
+/// Keys of such a section that readContext reads.
+template <class Visitor>
+void describeContext(Visitor& v)
+{
+    v.other("let", "Names for formulas");
+    v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
+    v.other("control_surfaces", "Planes and discs through which flux(\"name\") is read, discs on which pressure_on(\"name\") is");
+}
+
 /// Names of the scene (g, density, viscosity, surface_tension, dx, duration), of the section's `let`, and of the
 /// measures, which learn its `flow`. Throws InputError.
 ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& scene, Measures& measures);

@@ -76,8 +76,8 @@ std::optional<RunResult> readReport(const std::filesystem::path& folder);
 struct LogsSoFar {
     RunSummary summary;
     std::uintmax_t stepsBytes = 0, energyBytes = 0, ledgerBytes = 0,
-                   probesBytes = 0;  ///< sizes of steps.jsonl, energy.csv, energy_ledger.csv, probes.csv
-    ForceTotals sinceReading = {};   ///< forces since the last reading of probes
+                   probesBytes = 0;    ///< sizes of steps.jsonl, energy.csv, energy_ledger.csv, probes.csv
+    IntervalTotals sinceReading = {};  ///< forces and pressures since the last reading of probes
 };
 
 /// The growing logs of one run, steps.jsonl and energy.csv where the scene wants them, and its report.json. What is

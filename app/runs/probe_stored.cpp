@@ -23,6 +23,7 @@ class StoredSimulation : public SimulationHandle {
     const sim::ActiveContacts* contacts() const override { return nullptr; }
     const sim::LiquidGrid& liquidGrid() const override { refuse("fronts and flow_error"); }
     const sim::Forces& forces() const override { return forces_; }
+    const sim::BlockArray<double>* pressureOfReflection() const override { refuse("pressures on discs"); }
     sim::StepReport step(double) override { refuse("steps"); }
     sim::Energies energies() const override { refuse("energies"); }
     void bookEnergy() override { refuse("energies"); }
@@ -39,12 +40,14 @@ class StoredSimulation : public SimulationHandle {
     const sim::Forces forces_;
 };
 
-void requireNoForces(const Probes& probes)
+/// What only a run under way can tell is not read of its states.
+void requireStored(const Probes& probes)
 {
     for (const Probe& probe : probes.all)
-        if (probe.read.text().find("force_") != std::string::npos || probe.read.text().find("torque_") != std::string::npos)
-            throw sim::InputError(
-                fmt::format("output.probes: {}: stored states do not tell of forces: run the scene anew with output.probes", probe.name));
+        for (const char* means : {"force_", "torque_", "pressure_on"})
+            if (probe.read.text().find(means) != std::string::npos)
+                throw sim::InputError(fmt::format("output.probes: {}: stored states do not tell of {}: run the scene anew with output.probes",
+                                                  probe.name, std::string_view(means) == "pressure_on" ? "pressures on discs" : "forces"));
 }
 
 }  // namespace
@@ -55,7 +58,7 @@ bool probeStoredRun(const StoredRun& run, const std::filesystem::path& out, cons
     if (!probes)
         throw sim::InputError(
             fmt::format("{}: its scene has no output.probes; give a file of them: drench probe FOLDER PROBES", run.folder.string()));
-    requireNoForces(*probes);
+    requireStored(*probes);
     makeFolder(out);
     const auto part = partFile(out / kProbesFile);
     try {

@@ -78,20 +78,22 @@ SchemaJson lastKeyRead(const std::string& text, Read read)
 }
 
 /// What sections with formulas have in common.
-void addNamesOfFormulas(SchemaJson& section)
+void addContext(SchemaJson& section)
 {
     section["properties"]["let"].update(namedSchema(formulaSchema()));
     SchemaJson three = listSchema(formulaSchema(), sim::kAxes);
     three["maxItems"] = sim::kAxes;
     section["properties"]["flow"].update(three);
+    section["properties"]["control_surfaces"].update(
+        namedSchema(lastKeyRead("output: {probes: {control_surfaces: {a: {}}, readings: []}}", readProbes)));
 }
 
-/// Pairs of numbers.
+/// Rows of two numbers, or of four with a band.
 SchemaJson tableSchema()
 {
     const SchemaJson number = {{"anyOf", {{{"type", "number"}}, {{"type", "string"}}}}};
-    const SchemaJson pair = {{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}};
-    return listSchema(pair, 1);
+    const auto rowsOf = [&](int count) { return listSchema({{"type", "array"}, {"items", number}, {"minItems", count}, {"maxItems", count}}, 1); };
+    return {{"anyOf", {rowsOf(2), rowsOf(4)}}};
 }
 
 /// @param list  of what is read as the scene runs
@@ -102,7 +104,7 @@ SchemaJson readingsSchema(const std::string& section, const std::string& list, R
     SchemaJson reading = lastKeyRead(section + ": {every: 1, " + list + ": [{}]}", read);
     reading["properties"]["table"].update(tableSchema());
     schema["properties"][list].update(listSchema(reading));
-    addNamesOfFormulas(schema);
+    addContext(schema);
     return schema;
 }
 
@@ -110,9 +112,8 @@ SchemaJson probesSchema()
 {
     const auto within = [](const std::string& probes) { return lastKeyRead("output: {probes: {" + probes + "}}", readProbes); };
     SchemaJson schema = within(""), reading = within("readings: [{}]");
-    addNamesOfFormulas(schema);
+    addContext(schema);
     reading["properties"]["along"].update(within("readings: [{read: 1, along: {}}]"));
-    schema["properties"]["control_surfaces"].update(namedSchema(within("control_surfaces: {a: {}}, readings: []")));
     schema["properties"]["readings"].update(listSchema(reading, 1));
     return schema;
 }

@@ -19,16 +19,16 @@ namespace app {
 
 namespace {
 
-LoadedScene loadCase(const std::filesystem::path& file, bool isQuick, const Backends& backends)
+LoadedScene loadCase(const std::filesystem::path& file, const Options& options, const Backends& backends)
 {
     SceneRequest request{file.string(), "", {}};
     LoadedScene setup = backends.loadScene(request);
     const std::optional<Validation> validation = readValidation(setup);
     if (!validation) throw sim::InputError(fmt::format("{}: has no section validate, which tells what is known of it", file.string()));
     logNotes(setup);
-    if (!isQuick || validation->quick.empty()) return setup;
-    request.sets = validation->quick;
-    return backends.loadScene(request);
+    if (options.quick) request.sets = validation->quick;
+    request.sets.insert(request.sets.end(), options.sets.begin(), options.sets.end());
+    return request.sets.empty() ? setup : backends.loadScene(request);
 }
 
 void tell(const CaseResult& result)
@@ -44,7 +44,7 @@ int runVerbValidate(const Options& options, const Backends& backends)
     const auto folder = options.out.empty() ? std::filesystem::path("out") / (options.quick ? "validation_quick" : "validation") : options.out;
     // All are loaded, and so validated, before the first one starts.
     std::vector<std::pair<std::string, LoadedScene>> cases;
-    for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options.quick, backends));
+    for (const auto& file : caseFiles("validation", options.cases)) cases.emplace_back(file.stem().string(), loadCase(file, options, backends));
     makeFolder(folder);
     std::vector<CaseResult> results;
     for (const auto& loaded : cases) {

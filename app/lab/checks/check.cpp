@@ -3,18 +3,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace app {
 
-double Check::expectedAt(double time, double at) const
+namespace {
+
+double between(double a, double b, double share) { return a + (b - a) * share; }
+
+double valueOf(const Check& check, std::span<const double> now)
+try {
+    return check.read(now);
+} catch (const sim::FormulaError&) {
+    if (check.otherwise) return *check.otherwise;
+    throw;
+}
+
+}  // namespace
+
+Known Check::knownAt(double time, double at) const
 {
-    if (expect) return (*expect)(std::array{time});
-    const auto after = std::ranges::lower_bound(table, at, {}, [](const auto& row) { return row[0]; });
-    if (after == table.end() || (after == table.begin() && at < table.front()[0])) return std::numeric_limits<double>::quiet_NaN();
-    if (after == table.begin()) return table.front()[1];
-    const auto before = std::prev(after);
-    return (*before)[1] + ((*after)[1] - (*before)[1]) * (at - (*before)[0]) / ((*after)[0] - (*before)[0]);
+    Known known{.at = at, .value = std::numeric_limits<double>::quiet_NaN()};
+    if (expect) known.value = (*expect)(std::array{time});
+    if (expect || table.empty() || at < table.front().at || at > table.back().at) return known;
+    const auto after = std::ranges::lower_bound(table, at, {}, &Known::at);
+    if (after == table.begin()) return *after;
+    const Known &above = *after, &below = *std::prev(after);
+    const double share = (at - below.at) / (above.at - below.at);
+    return {at, between(below.value, above.value, share), between(below.lower, above.lower, share), between(below.upper, above.upper, share)};
 }
 
 std::optional<Sample> readOnce(const Check& check, double time)
@@ -22,7 +39,8 @@ std::optional<Sample> readOnce(const Check& check, double time)
     const std::array now = {time};
     const double at = check.against(now);
     if (at < check.from || at > check.to) return std::nullopt;
-    Sample reading{at, check.read(now), check.expectedAt(time, at)};
+    const Known known = check.knownAt(time, at);
+    const Sample reading{at, valueOf(check, now), known.value, known.lower, known.upper};
     if (check.hasCurve() && !std::isfinite(reading.expected)) return std::nullopt;
     return reading;
 }

@@ -3,7 +3,7 @@
 #include "app/lab/checks/statistic.h"
 #include "sim/scene/formula.h"
 
-#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -11,6 +11,13 @@
 #include <vector>
 
 namespace app {
+
+/// What is known at a place of `against`: a row of a table.
+struct Known {
+    double at = 0.0, value = 0.0;
+    double lower = std::numeric_limits<double>::quiet_NaN();  ///< lower end of the band that was measured; NaN: none is known
+    double upper = std::numeric_limits<double>::quiet_NaN();  ///< upper end
+};
 
 /// One comparison with what is known. Formulas know the names of measures.h, the scene's constants and those of `let`.
 struct Check {
@@ -20,18 +27,26 @@ struct Check {
     double from = -std::numeric_limits<double>::infinity(),
            to = std::numeric_limits<double>::infinity();  ///< end of `against`
     Statistic statistic = Statistic::Last;
-    double level = 0.0;                             ///< level of Statistic::Reach
-    std::string unit = {};                          ///< unit of what is read
-    std::optional<sim::Formula> expect = {};        ///< expected value as a formula of the time
-    std::vector<std::array<double, 2>> table = {};  ///< measured (against, value), in its place
-    std::optional<double> tolerance = {};           ///< relative to what is expected
-    std::optional<double> within = {};              ///< absolute bound of the difference
+    double level = 0.0;                       ///< level of Statistic::Reach
+    std::string unit = {};                    ///< unit of what is read
+    std::optional<sim::Formula> expect = {};  ///< expected value as a formula of the time
+    std::vector<Known> table = {};            ///< measured, in its place
+    std::optional<double> otherwise = {};     ///< what counts where a reading has no value
+    std::string outside = {};                 ///< why it is known to be outside of what was measured; empty: it is not
+    std::optional<double> tolerance = {};     ///< relative to what is expected
+    std::optional<double> within = {};        ///< absolute bound of the difference
     std::optional<double> atMost = {}, atLeast = {};
 
     /// Is what its readings are compared with known at each of them?
-    bool hasCurve() const { return statistic == Statistic::MeanError || statistic == Statistic::LargestError || statistic == Statistic::RmsError; }
+    bool hasCurve() const
+    {
+        using enum Statistic;
+        return statistic == MeanError || statistic == LargestError || statistic == RmsError || statistic == ShareInside;
+    }
+    /// Tells whether the table has a band around what was measured.
+    bool hasBand() const { return !table.empty() && std::isfinite(table.front().lower); }
     /// NaN beyond the table, and where nothing is expected.
-    double expectedAt(double time, double at) const;
+    Known knownAt(double time, double at) const;
 };
 
 /// What is found of one check.
@@ -41,7 +56,8 @@ struct Finding {
     bool passes = false;
 };
 
-/// A reading of the simulation that `measures` looks at; nothing outside from … to. Throws FormulaError.
+/// A reading of the simulation that `measures` looks at; nothing outside from … to. Throws FormulaError where it has no value and the check
+/// says nothing else.
 std::optional<Sample> readOnce(const Check& check, double time);
 
 Finding judge(const Check& check, std::span<const Sample> readings);

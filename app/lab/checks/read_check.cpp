@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace app {
 
@@ -9,13 +10,26 @@ namespace {
 
 using sim::Node;
 
-std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& path)
+Known rowIn(const Node& node, const std::string& path, bool hasBand)
 {
-    if (!node.isList() || node.items.empty()) sim::fail(node.location, path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]]");
-    std::vector<std::array<double, 2>> table;
-    for (const Node& row : node.items) sim::readNumbers(row, path, table.emplace_back(), sim::Quantity::None, sim::Range::any());
-    if (!std::ranges::is_sorted(table, {}, [](const auto& row) { return row[0]; }))
-        sim::fail(node.location, path + ": its first numbers must ascend");
+    std::array<double, 4> row = {};
+    const auto numbers = std::span(row).first(hasBand ? 4 : 2);
+    sim::readNumbers(node, path, numbers, sim::Quantity::None, sim::Range::any());
+    if (!hasBand) return {.at = row[0], .value = row[1]};
+    if (row[2] > row[1] || row[1] > row[3])
+        sim::fail(node.location, path + ": a row with a band is [against, value, lower, upper], lower <= value <= upper");
+    return {.at = row[0], .value = row[1], .lower = row[2], .upper = row[3]};
+}
+
+std::vector<Known> tableIn(const Node& node, const std::string& path)
+{
+    if (!node.isList() || node.items.empty())
+        sim::fail(node.location,
+                  path + ": needs pairs of numbers, like [[0, 1], [0.5, 1.2]], or with a band [[0, 1, 0.9, 1.1], [0.5, 1.2, 1.1, 1.4]]");
+    const bool hasBand = node.items.front().isList() && node.items.front().items.size() == 4;
+    std::vector<Known> table;
+    for (const Node& row : node.items) table.push_back(rowIn(row, path, hasBand));
+    if (!std::ranges::is_sorted(table, {}, &Known::at)) sim::fail(node.location, path + ": its first numbers must ascend");
     return table;
 }
 
@@ -23,7 +37,7 @@ std::vector<std::array<double, 2>> tableIn(const Node& node, const std::string& 
 
 Check readCheck(const Node& node, const std::string& path, const ReadingContext& context, const std::string& name)
 {
-    std::string called = name, unit;
+    std::string called = name, unit, outside;
     Statistic statistic = Statistic::Last;
     sim::SectionReader::read(&node, path, [&](auto& v) {
         v.text("name", called, "What tables and plots call it");
@@ -36,11 +50,13 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
         v.choice("take", statistic, "The one number that is made of the readings; left out: last");
         v.formula("level", "Which take: reach is about");
         v.formula("expect", "What is known, of the time t");
-        v.other("table", "What was measured, in the place of expect: pairs of against and the value, against ascending");
+        v.other("table", "What was measured, in the place of expect: against, value and, where its scatter is known, its lower and upper end");
         v.formula("tolerance", "Largest difference from expect, relative to it");
         v.formula("within", "Largest difference from expect, as it is");
         v.formula("at_most", "Largest value");
         v.formula("at_least", "Smallest value");
+        v.formula("otherwise", "What counts where a reading has no value, like a height where nothing is wet; left out: the run fails there");
+        v.text("outside", outside, "Why what is found is known to be outside of what was measured: it is told and fails nothing");
     });
     const sim::SectionReader section(node, path);
     const auto readings = [&](const char* key, const char* otherwise) {
@@ -61,6 +77,8 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
     check.within = constant("within");
     check.atMost = constant("at_most");
     check.atLeast = constant("at_least");
+    check.otherwise = constant("otherwise");
+    check.outside = outside;
     return check;
 }
 

@@ -36,7 +36,8 @@ double slopeOfLogarithm(std::span<const Sample> all, bool isOfBoth)
 {
     std::vector<Sample> logarithms;
     for (const Sample& r : all)
-        if (!isOfBoth || (r.at > 0.0 && r.value > 0.0)) logarithms.push_back({isOfBoth ? std::log(r.at) : r.at, std::log(std::abs(r.value)), 0.0});
+        if (!isOfBoth || (r.at > 0.0 && r.value > 0.0))
+            logarithms.push_back({.at = isOfBoth ? std::log(r.at) : r.at, .value = std::log(std::abs(r.value))});
     return slope(logarithms);
 }
 
@@ -58,7 +59,7 @@ Oscillations oscillationsOf(std::span<const Sample> all)
             swings.passings.push_back(all[i - 1].at + (all[i].at - all[i - 1].at) * before / (before - now));
             peak = {};
         }
-        if (std::abs(now) > peak.value) peak = {all[i].at, std::abs(now), 0.0};
+        if (std::abs(now) > peak.value) peak = {.at = all[i].at, .value = std::abs(now)};
     }
     return swings;
 }
@@ -85,6 +86,12 @@ double rmsError(std::span<const Sample> all)
         size += (r.expected - all.front().expected) * (r.expected - all.front().expected);
     }
     return std::sqrt(error / size);
+}
+
+double shareInside(std::span<const Sample> all)
+{
+    const auto inside = std::ranges::count_if(all, [](const Sample& r) { return r.lower <= r.value && r.value <= r.upper; });
+    return static_cast<double>(inside) / static_cast<double>(all.size());
 }
 
 double reach(std::span<const Sample> all, double level)
@@ -120,7 +127,10 @@ double statisticOf(Statistic what, std::span<const Sample> all, double level)
         }
         case Statistic::LargestError: return std::ranges::max(errors(all));
         case Statistic::RmsError: return rmsError(all);
+        case Statistic::ShareInside: return shareInside(all);
         case Statistic::Reach: return reach(all, level);
+        case Statistic::SmallestAt: return std::ranges::min_element(all, byValue)->at;
+        case Statistic::LargestAt: return std::ranges::max_element(all, byValue)->at;
     }
     return kNone;
 }

@@ -2,6 +2,7 @@
 
 #include "sim/scene/choice.h"
 
+#include <limits>
 #include <span>
 
 namespace app {
@@ -10,6 +11,8 @@ namespace app {
 /// known.
 struct Sample {
     double at = 0.0, value = 0.0, expected = 0.0;
+    double lower = std::numeric_limits<double>::quiet_NaN();  ///< lower end of the band that was measured; NaN: none is known
+    double upper = std::numeric_limits<double>::quiet_NaN();  ///< upper end
 };
 
 /// What a check makes of its readings: one number.
@@ -28,7 +31,10 @@ enum class Statistic {
     MeanError,     ///< mean of |value / expected − 1|
     LargestError,  ///< largest of |value / expected − 1|
     RmsError,      ///< root mean square of value − expected, relative to that of how far the latter goes from its first
+    ShareInside,   ///< share of readings inside the band that was measured
     Reach,         ///< place where they first pass a level upwards
+    SmallestAt,    ///< place where they are smallest
+    LargestAt,     ///< place where they are largest
 };
 
 /// Statistics as scene files write them.
@@ -48,7 +54,10 @@ inline std::span<const sim::Choice<Statistic>> choicesOf(Statistic)
                                                       {"mean_error", Statistic::MeanError},
                                                       {"largest_error", Statistic::LargestError},
                                                       {"rms_error", Statistic::RmsError},
-                                                      {"reach", Statistic::Reach}};
+                                                      {"share_inside", Statistic::ShareInside},
+                                                      {"reach", Statistic::Reach},
+                                                      {"smallest_at", Statistic::SmallestAt},
+                                                      {"largest_at", Statistic::LargestAt}};
     return kAll;
 }
 

@@ -44,7 +44,7 @@ std::vector<Check> checksAgainst(const Precision& precision, const AllReadings& 
     std::vector<Check> checks = precision.errors;
     for (std::size_t i = 0; i < checks.size() && i < converged.size(); ++i)
         if (!checks[i].expect && checks[i].table.empty())
-            for (const Sample& reading : converged[i]) checks[i].table.push_back({reading.at, reading.value});
+            for (const Sample& reading : converged[i]) checks[i].table.push_back({.at = reading.at, .value = reading.value});
     return checks;
 }
 

@@ -104,6 +104,7 @@ std::vector<Check> errorsIn(const sim::SectionReader& section, const ReadingCont
         const std::string path = fmt::format("precision.errors.{}", i);
         errors.push_back(readCheck(node.items[i], path, context, fmt::format("error {}", i + 1)));
         const Check& check = errors.back();
+        if (!check.outside.empty()) sim::fail(node.items[i].location, path + ".outside: is for validate, which tells of measurements");
         if (!check.expect && !check.hasCurve())
             sim::fail(node.items[i].location, path + ": needs expect, or take: rms_error to be held against a converged run");
     }
@@ -113,7 +114,7 @@ std::vector<Check> errorsIn(const sim::SectionReader& section, const ReadingCont
 std::string questionIn(const sim::SectionReader& section)
 {
     std::string text;
-    for (const char* key : {"every", "let", "flow", "errors", "energy", "converged"})
+    for (const char* key : {"every", "let", "flow", "control_surfaces", "errors", "energy", "converged"})
         if (const Node* node = section.find(key)) text += fmt::format("{}: {}\n", key, node->flow());
     return text;
 }
@@ -128,8 +129,7 @@ std::optional<Precision> readPrecision(const LoadedScene& setup)
     sim::SectionReader::read(node, "precision", [&](auto& v) {
         v.text("about", precision.about, "What is compared with what, as the report says it");
         v.formula("every", "Time between two readings [s], above 0");
-        v.other("let", "Names for formulas");
-        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
+        describeContext(v);
         v.other("errors", "What is compared; the error of a run is the root mean square of these");
         v.formula("energy", "Energy of which the table tells how much is left");
         v.formula("decay", "Rate at which that energy decays over the kinematic viscosity, 0 where it is not known [1/cm^2]");

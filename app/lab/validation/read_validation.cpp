@@ -16,17 +16,21 @@ void requireVerdict(const Check& check, const Node& node, const std::string& pat
     const bool expects = check.expect || !check.table.empty(), hasTolerance = check.tolerance || check.within,
                hasBound = check.atMost || check.atLeast;
     if (check.hasCurve() && (!expects || !hasBound)) sim::fail(node.location, path + ": an error needs expect or table, and at_most");
+    if (check.statistic == Statistic::ShareInside && !check.hasBand())
+        sim::fail(node.location, path + ": share_inside needs a table with a band, like [[0, 1, 0.9, 1.1], [0.5, 1.2, 1.1, 1.4]]");
     if (check.hasCurve()) return;
-    if (!check.table.empty()) sim::fail(node.location, path + ": a table is compared by take: mean_error, largest_error or rms_error");
+    if (!check.table.empty()) sim::fail(node.location, path + ": a table is compared by take: mean_error, largest_error, rms_error or share_inside");
     if (check.expect && !hasTolerance) sim::fail(node.location, path + ": expect needs tolerance (relative) or within (absolute)");
     if (!expects && !hasBound) sim::fail(node.location, path + ": needs expect with a tolerance, at_most, or at_least");
 }
 
-Check checkIn(const Node& node, std::size_t index, const ReadingContext& context)
+Check checkIn(const Node& node, std::size_t index, KnownFrom kind, const ReadingContext& context)
 {
     const std::string path = fmt::format("validate.checks.{}", index);
     Check check = readCheck(node, path, context, fmt::format("check {}", index + 1));
     requireVerdict(check, node, path);
+    if (!check.outside.empty() && kind != KnownFrom::Measured)
+        sim::fail(node.location, path + ".outside: is for what was measured: validate needs kind: measured, or the check another tolerance");
     return check;
 }
 
@@ -40,9 +44,9 @@ std::optional<Validation> readValidation(const LoadedScene& setup)
     sim::SectionReader::read(node, "validate", [&](auto& v) {
         v.text("about", validation.about, "What is compared with what, as the report says it");
         v.text("source", validation.source, "Who found what is expected");
+        v.choice("kind", validation.kind, "Where it is known from: theory, or measured in an experiment");
         v.formula("every", "Time between two readings [s], above 0");
-        v.other("let", "Names for formulas");
-        v.other("flow", "Velocity, three formulas of x, y, z and t, of which flow_error and flow_part tell [cm/s]");
+        describeContext(v);
         v.other("quick", "What drench validate --quick changes, so that the run is short");
         v.other("checks", "What is compared");
     });
@@ -55,7 +59,7 @@ std::optional<Validation> readValidation(const LoadedScene& setup)
     section.required("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
     const Node& checks = *section.find("checks");
     if (!checks.isList() || checks.items.empty()) sim::fail(checks.location, "validate.checks: needs a list of at least one check");
-    for (std::size_t i = 0; i < checks.items.size(); ++i) validation.checks.push_back(checkIn(checks.items[i], i, context));
+    for (std::size_t i = 0; i < checks.items.size(); ++i) validation.checks.push_back(checkIn(checks.items[i], i, validation.kind, context));
     return validation;
 }
 

@@ -4,8 +4,8 @@
 #include "app/system/stopwatch.h"
 #include "sim/core/check.h"
 
-#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace app {
 
@@ -34,7 +34,18 @@ void runAndRead(const LoadedScene& setup, const Backends& backends, const std::f
 
 }  // namespace
 
-bool CaseResult::passes() const { return failure.empty() && std::ranges::all_of(findings, &Finding::passes); }
+bool CaseResult::fails(std::size_t check) const
+{
+    const Finding& finding = findings[check];
+    return !finding.passes && (validation.checks[check].outside.empty() || !std::isfinite(finding.value));
+}
+
+bool CaseResult::passes() const
+{
+    bool any = !failure.empty();
+    for (std::size_t i = 0; i < findings.size(); ++i) any = any || fails(i);
+    return !any;
+}
 
 CaseResult runCase(const std::string& name, const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted)
 {

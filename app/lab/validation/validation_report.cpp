@@ -14,6 +14,9 @@ namespace app {
 
 namespace {
 
+/// What is compared with, as tables and plots call it.
+const char* knownAs(KnownFrom kind) { return kind == KnownFrom::Measured ? "measured" : "known"; }
+
 std::string withUnit(double value, const std::string& unit)
 {
     return std::isfinite(value) ? fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit) : "-";
@@ -45,40 +48,80 @@ std::string panel(const CaseResult& result, std::size_t i)
     const std::string abscissa = check.against.text() == "t" ? "time [s]" : check.against.text();
     std::string text = fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ", gnuplotText(check.name),
                                    gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
-    if (hasLine(check)) text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title 'known', ", file, column(4));
+    if (check.hasBand())
+        text += fmt::format("{0} skip 1 using ($1=={1}?$2:NaN):5:6 with filledcurves fc rgb '#dddddd' fs solid noborder title 'scatter', ", file, i);
+    if (hasLine(check))
+        text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title '{}', ", file, column(4), knownAs(result.validation.kind));
     return text + fmt::format("{} skip 1 {} with lines lw 2 lc rgb '{}' title 'found'\n", file, column(3), kPlotColors[2]);
 }
 
 std::string plotScript(const CaseResult& result, const std::string& picture)
 {
-    const std::size_t panels = result.readings.size();
+    constexpr std::size_t kMostInRow = 4;
+    const std::size_t panels = result.readings.size(), rows = (panels + kMostInRow - 1) / kMostInRow, columns = (panels + rows - 1) / rows;
     std::string text = fmt::format(
-        "set terminal pngcairo size {},420 font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
-        "set multiplot layout 1,{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
+        "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
+        "set multiplot layout {},{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
         "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset format y '%.4g'\n",
-        std::max<std::size_t>(480, 400 * panels), gnuplotText(picture), panels, gnuplotText(result.setup.scene.title));
+        std::max<std::size_t>(480, 400 * columns), 380 * rows + 40, gnuplotText(picture), rows, columns, gnuplotText(result.setup.scene.title));
     for (std::size_t i = 0; i < panels; ++i) text += panel(result, i);
     return text + "unset multiplot\n";
+}
+
+/// How a check came out: what was measured has a scatter, and models have limits.
+std::string verdict(const CaseResult& result, std::size_t i)
+{
+    const bool passes = result.findings[i].passes, isMeasured = result.validation.kind == KnownFrom::Measured;
+    if (!isMeasured) return passes ? "passes" : "**fails**";
+    if (result.fails(i)) return "**outside**";
+    if (result.validation.checks[i].outside.empty()) return "inside";
+    return passes ? "inside, said to be outside" : "outside, as said below";
 }
 
 std::string rowOf(const CaseResult& result, std::size_t i)
 {
     const Check& check = result.validation.checks[i];
     const Finding& finding = result.findings[i];
-    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name, withUnit(finding.value, check.unit),
-                       withUnit(finding.expected, check.unit), deviation(finding), bounds(check), finding.passes ? "passes" : "**fails**");
+    const std::string unit = check.hasCurve() ? "" : check.unit;  // errors and shares have none
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name, withUnit(finding.value, unit),
+                       withUnit(finding.expected, unit), deviation(finding), bounds(check), verdict(result, i));
+}
+
+std::string rowsOf(const CaseResult& result)
+{
+    std::string rows;
+    for (std::size_t i = 0; i < result.findings.size(); ++i) rows += rowOf(result, i);
+    if (!result.failure.empty()) rows += fmt::format("| {} | {} | - | - | - | - | **fails** |\n", result.name, result.failure);
+    return rows;
+}
+
+std::string paragraph(const CaseResult& result, bool withPlots)
+{
+    const Validation& validation = result.validation;
+    const std::string& title = result.setup.scene.title;
+    std::string text = fmt::format("\n### {}\n\n{}\n\n{} {}. {} steps, {}.\n", title, validation.about,
+                                   validation.kind == KnownFrom::Measured ? "Measured by" : "Known from:", validation.source, result.steps,
+                                   formatDuration(result.wallSeconds));
+    for (const Check& check : validation.checks)
+        if (!check.outside.empty()) text += fmt::format("\nOutside: {}. {}\n", check.name, check.outside);
+    if (withPlots) text += fmt::format("\n![{}]({}.png)\n", title, result.name);
+    return text;
 }
 
 }  // namespace
 
 std::string findingsTable(const std::vector<CaseResult>& results)
 {
-    std::string table = "| case | check | found | known | deviation | allowed | |\n|---|---|---:|---:|---:|---|---|\n";
-    for (const CaseResult& result : results) {
-        for (std::size_t i = 0; i < result.findings.size(); ++i) table += rowOf(result, i);
-        if (!result.failure.empty()) table += fmt::format("| {} | {} | - | - | - | - | **fails** |\n", result.name, result.failure);
+    std::string text;
+    for (const KnownFrom kind : {KnownFrom::Theory, KnownFrom::Measured}) {
+        const auto isOfIt = [&](const CaseResult& result) { return result.validation.kind == kind; };
+        if (std::ranges::none_of(results, isOfIt)) continue;
+        text += fmt::format("{}## {}\n\n| case | check | found | {} | deviation | allowed | |\n|---|---|---:|---:|---:|---|---|\n",
+                            text.empty() ? "" : "\n", kind == KnownFrom::Measured ? "Measured" : "Theory", knownAs(kind));
+        for (const CaseResult& result : results)
+            if (isOfIt(result)) text += rowsOf(result);
     }
-    return table;
+    return text;
 }
 
 std::string validationReport(const std::vector<CaseResult>& results, bool isQuick, bool withPlots)
@@ -86,23 +129,19 @@ std::string validationReport(const std::vector<CaseResult>& results, bool isQuic
     const auto passed = std::ranges::count_if(results, &CaseResult::passes);
     double seconds = 0.0;
     for (const CaseResult& result : results) seconds += result.wallSeconds;
-    std::string text = fmt::format("# Validation{}\n\n{} of {} cases pass, in {}.\n\n{}", isQuick ? " (quick)" : "", passed, results.size(),
-                                   formatDuration(seconds), findingsTable(results));
-    for (const CaseResult& result : results) {
-        const Validation& validation = result.validation;
-        text += fmt::format("\n## {}\n\n{}\n\nKnown from: {}. {} steps, {}.\n", result.setup.scene.title, validation.about, validation.source,
-                            result.steps, formatDuration(result.wallSeconds));
-        if (withPlots) text += fmt::format("\n![{}]({}.png)\n", result.setup.scene.title, result.name);
-    }
+    std::string text = fmt::format("# Validation{}\n\n{} of {} cases pass, in {}.\n\n{}\n## Cases\n", isQuick ? " (quick)" : "", passed,
+                                   results.size(), formatDuration(seconds), findingsTable(results));
+    for (const CaseResult& result : results) text += paragraph(result, withPlots);
     return text;
 }
 
 void writeReadings(const CaseResult& result, const std::filesystem::path& folder)
 {
-    std::string csv = "check,at,found,known\n";
+    std::string csv = "check,at,found,known,lower,upper\n";
     for (std::size_t i = 0; i < result.readings.size(); ++i)
         for (const Sample& reading : result.readings[i])
-            fmt::format_to(std::back_inserter(csv), "{},{:.9g},{:.9g},{:.9g}\n", i, reading.at, reading.value, reading.expected);
+            fmt::format_to(std::back_inserter(csv), "{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", i, reading.at, reading.value, reading.expected,
+                           reading.lower, reading.upper);
     writeWhole(folder / (result.name + ".csv"), csv);
     const auto enough = [](const auto& readings) { return readings.size() > 1; };
     if (canPlot() && std::ranges::all_of(result.readings, enough))

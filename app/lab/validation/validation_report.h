@@ -8,7 +8,7 @@
 
 namespace app {
 
-/// One line per check: what was found, what is known, whether it passes.
+/// One line per check: what was found, what is known, whether it passes. A table for what theory says, one for what was measured.
 std::string findingsTable(const std::vector<CaseResult>& results);
 
 /// A paragraph per case: what it shows, after whom, what it cost, its checks and its plot.

@@ -50,16 +50,25 @@ TEST_F(ProbedRuns, AreTheRunsThatTheyWouldBeWithout)
     }
 }
 
+/// Means since the last reading, which the stop falls into.
+constexpr const char* kMeans = R"yaml({every: 7.0e-3,
+  control_surfaces: {disc: {center: [0, 0.5, 0], normal: [0, 1, 0], radius: 0.3}},
+  readings: [{read: liquid_y}, {name: pressure, read: pressure_on("disc")}, {name: force, read: force_y("sheet")}]})yaml";
+
 TEST_F(ProbedRuns, StoppedAndGoneOnWithHaveTheSameReadings)
 {
-    const std::vector<std::string> more = {"--no-frames", "--set", probes(kProbesOfAll)};
-    std::vector<std::string> half = more;
-    half.insert(half.end(), {"--set", "time.duration=0.041"});
-    ASSERT_EQ(run("whole", more).code, 0);
-    ASSERT_EQ(run("half", half).code, 0);
-    ASSERT_EQ(resume("half", {"--no-frames", "--set", "time.duration=0.08"}).code, 0);
-    EXPECT_EQ(contentOf(folder / "whole" / "probes.csv"), contentOf(folder / "half" / "probes.csv"));
-    EXPECT_EQ(canPlot(), std::filesystem::exists(folder / "half" / "probes.png"));
+    for (const char* asked : {kProbesOfAll, kMeans}) {
+        const std::vector<std::string> more = {"--no-frames", "--set", probes(asked)};
+        std::vector<std::string> half = more;
+        half.insert(half.end(), {"--set", "time.duration=0.041"});
+        ASSERT_EQ(run("whole", more).code, 0);
+        ASSERT_EQ(run("half", half).code, 0);
+        ASSERT_EQ(resume("half", {"--no-frames", "--set", "time.duration=0.08"}).code, 0);
+        EXPECT_EQ(contentOf(folder / "whole" / "probes.csv"), contentOf(folder / "half" / "probes.csv"));
+        EXPECT_EQ(canPlot(), std::filesystem::exists(folder / "half" / "probes.png"));
+        std::filesystem::remove_all(folder / "whole");
+        std::filesystem::remove_all(folder / "half");
+    }
 }
 
 /// What states hold is read from them as it was when the run was there.
@@ -147,6 +156,87 @@ output:
     }
 }
 
+/// At rest the floor bears the water over it, but for half a cell of it, and a wall what is over the disc.
+TEST_F(ProbedRuns, PressuresOnDiscsAtRestAreThoseOfTheDepth)
+{
+    writeFile(folder / "pool.yaml", R"yaml(drench: 1
+scene: {name: pool}
+time: {dt: 2.5e-3, duration: 0.05}
+grid: {cell: 0.25}
+liquid: {sources: [{name: water, shape: {box: {min: [0, 0, 0], max: [4, 3, 1]}}}]}
+obstacles: [{name: tank, shape: {box: {min: [0, 0, 0], max: [4, 9, 1]}}, inside: true}]
+output:
+  probes:
+    every: 1.0e-2
+    control_surfaces:
+      floor: {center: [2, 0, 0.5], normal: [0, 1, 0], radius: 0.5}
+      wall: {center: [0, 1, 0.5], normal: [1, 0, 0], radius: 0.4}
+      far: {center: [90, 1, 0.5], normal: [1, 0, 0], radius: 0.4}
+    readings: [{name: floor, read: pressure_on("floor")}, {name: wall, read: pressure_on("wall")}, {name: far, read: pressure_on("far")}]
+)yaml");
+    const ChildExit end = drench({"run", "pool.yaml", "--no-video", "--no-frames", "--threads", "1", "--out", "pool"});
+    ASSERT_EQ(end.code, 0) << end.errorText;
+    const auto read = table("pool/probes.csv");
+    EXPECT_EQ(read.at("floor [-]").front(), 0.0) << "before the first step";
+    // At the end steps are shorter than the one before, half of whose weight they bear.
+    const std::size_t n = read.at("time_s").size() - 2;
+    EXPECT_NEAR(read.at("floor [-]")[n], 981.0 * (3.0 - 0.5 * 0.25), 15.0);
+    EXPECT_NEAR(read.at("wall [-]")[n], 981.0 * 2.0, 15.0);
+    EXPECT_EQ(read.at("far [-]").back(), 0.0);
+}
+
+/// A disc on the side of a tank that is lifted stays in the same depth; through a plane that rises with it nothing goes.
+TEST_F(ProbedRuns, ControlSurfacesMoveWithTheirObstacles)
+{
+    writeFile(folder / "lift.yaml", R"yaml(drench: 1
+scene: {name: lift}
+time: {dt: 2.5e-3, duration: 0.1}
+grid: {cell: 0.25}
+liquid: {sources: [{name: water, shape: {box: {min: [0, 0, 0], max: [4, 3, 1]}}, velocity: [0, 10, 0]}]}
+obstacles:
+  - {name: tank, shape: {box: {min: [0, 0, 0], max: [4, 9, 1]}}, inside: true, motion: [{t: [0, 1], ease: [0, 0], translate: [0, 10, 0]}]}
+output:
+  probes:
+    every: 2.0e-2
+    control_surfaces:
+      side: {center: [0, 1, 0.5], normal: [1, 0, 0], radius: 0.2, moves_with: tank}
+      middle: {center: [2, 1.5, 0.5], normal: [0, 1, 0], moves_with: tank}
+      resting: {center: [2, 1.5, 0.5], normal: [0, 1, 0]}
+    readings: [{name: side, read: pressure_on("side")}, {name: middle, read: flux("middle")}, {name: resting, read: flux("resting")}]
+)yaml");
+    const ChildExit end = drench({"run", "lift.yaml", "--no-video", "--no-frames", "--threads", "1", "--out", "lift"});
+    ASSERT_EQ(end.code, 0) << end.errorText;
+    const auto read = table("lift/probes.csv");
+    EXPECT_NEAR(read.at("side [-]")[4], 981.0 * 2.0, 100.0);
+    EXPECT_NEAR(read.at("resting [-]")[4], 40.0, 4.0);
+    EXPECT_NEAR(read.at("middle [-]")[4], 0.0, 2.0);
+}
+
+/// A jet that a plate stops presses there by half its density times its speed squared, whether steps reflect or not: of two of which the first does
+/// both tell only together how much.
+TEST_F(ProbedRuns, PressureOnADiscIsThatOfStagnation)
+{
+    writeFile(folder / "jet.yaml", R"yaml(drench: 1
+scene: {name: jet}
+gravity: [0, 0, 0]
+time: {mode: cfl, cfl: 0.5, dt: 1.0e-2, duration: 0.042}
+grid: {cell: 0.25}
+liquid: {sources: [{name: jet, shape: {cylinder: {center: [0, 4, 0], axis: [0, 1, 0], radius: 1, half: 3.8}}, velocity: [0, -100, 0]}]}
+obstacles: [{name: plate, shape: {box: {min: [-9, -2, -9], max: [9, 0, 9]}}}]
+output:
+  probes:
+    every: 2.0e-2
+    control_surfaces: {middle: {center: [0, 0, 0], normal: [0, 1, 0], radius: 0.2}}
+    readings: [{name: middle, read: pressure_on("middle")}]
+)yaml");
+    for (const char* integrator : {"plain", "reflected"}) {
+        const ChildExit end = drench({"run", "jet.yaml", "--no-video", "--no-frames", "--threads", "1", "--out", integrator, "--set",
+                                      std::string("time.integrator=") + integrator});
+        ASSERT_EQ(end.code, 0) << end.errorText;
+        EXPECT_NEAR(table(std::string(integrator) + "/probes.csv").at("middle [-]").at(2), 5000.0, 200.0) << integrator;
+    }
+}
+
 TEST_F(ProbedRuns, MistakesAreToldInOneLineBeforeAnythingIsBegun)
 {
     const auto refused = [&](const std::string& section, const std::string& mentions) {
@@ -162,14 +252,20 @@ TEST_F(ProbedRuns, MistakesAreToldInOneLineBeforeAnythingIsBegun)
     refused("{readings: [{read: liquid_w}]}", "liquid_w");
     refused("{readings: [{read: 'x'}]}", "x");
     refused("{readings: [{read: 'flux(\"gate\")'}]}", "there is no control surface \"gate\"");
+    refused("{readings: [{read: 'pressure_on(\"gate\")'}]}", "there is no control surface \"gate\"");
+    refused("{control_surfaces: {a: {center: [0, 0, 0], normal: [0, 1, 0]}}, readings: [{read: 'pressure_on(\"a\")'}]}",
+            "the control surface \"a\" has no radius: a pressure is the mean over a disc");
+    refused("{control_surfaces: {a: {center: [0, 0, 0], normal: [0, 1, 0], moves_with: boat}}, readings: [{read: t}]}",
+            "moves_with: there is no obstacle \"boat\": there are none");
     refused("{readings: [{read: 'force_x(\"gate\")'}]}", "no obstacle and no fabric");
     refused("{every: 0, readings: [{read: liquid_y}]}", "above 0 s");
     refused("{readings: [{read: liquid_y, name: 'a, b'}]}", "no commas");
     refused("{readings: [{read: 'x', along: {from: [0, 0, 0]}}]}", "to is missing");
     refused("{control_surfaces: {a: {center: [0, 0, 0], normal: [0, 0, 0]}}, readings: [{read: t}]}", "must be a direction");
     ASSERT_EQ(run("run", {"--no-frames"}).code, 0);
-    for (const char* read : {"energy", "front_x(0)", "force_x(\"sheet\")"}) {
-        writeFile(folder / "probes.yaml", std::string("readings: [{read: '") + read + "'}]");
+    for (const char* read : {"energy", "front_x(0)", "force_x(\"sheet\")", "pressure_on(\"disc\")"}) {
+        writeFile(folder / "probes.yaml",
+                  std::string("control_surfaces: {disc: {center: [0, 0, 0], normal: [0, 1, 0], radius: 1}}\nreadings: [{read: '") + read + "'}]");
         const ChildExit end = drench({"probe", "run", "probes.yaml"});
         EXPECT_EQ(end.code, 2) << read;
         EXPECT_NE(end.errorText.find("stored states do not tell of"), std::string::npos) << end.errorText;

@@ -61,6 +61,21 @@ TEST(Statistic, RmsErrorIsRelativeToTheWayOfWhatIsKnown)
     EXPECT_NEAR(statisticOf(Statistic::RmsError, all), 2.0 / 5.0, 1.0e-12);
 }
 
+TEST(Statistic, ShareInsideCountsReadingsInTheBandWithItsEnds)
+{
+    const std::vector<Sample> all = {{0, 1.0, 1.5, 1.0, 2.0}, {1, 2.1, 1.5, 1.0, 2.0}, {2, 2.9, 3.0, 2.8, 3.1}, {3, 2.7, 3.0, 2.8, 3.1}};
+    EXPECT_EQ(statisticOf(Statistic::ShareInside, all), 0.5);
+    const std::vector<Sample> withoutBand = {{0, 1.0, 1.0}};
+    EXPECT_EQ(statisticOf(Statistic::ShareInside, withoutBand), 0.0);
+}
+
+TEST(Statistic, PlacesOfExtremesAreThoseOfTheFirst)
+{
+    const std::vector<Sample> all = {{0.0, 3, 0}, {0.5, 1, 0}, {1.0, 5, 0}, {1.5, 1, 0}, {2.0, 5, 0}};
+    EXPECT_EQ(statisticOf(Statistic::SmallestAt, all), 0.5);
+    EXPECT_EQ(statisticOf(Statistic::LargestAt, all), 1.0);
+}
+
 TEST(Statistic, IsNotANumberWhereThereAreTooFewReadings)
 {
     EXPECT_TRUE(std::isnan(statisticOf(Statistic::Last, {})));

@@ -12,10 +12,10 @@ namespace {
 sim::SceneFile caseOf(const std::string& section) { return sim::sceneFileFromText(fmt::format("drench: 1\nvalidate:\n{}", section), "case.yaml"); }
 
 /// The toy's one particle of 2 g flies along x at 1 cm/s.
-CaseResult fly(const std::string& checks, const test::ToySettings& toy = {})
+CaseResult fly(const std::string& checks, const test::ToySettings& toy = {}, const std::string& more = "")
 {
     LoadedScene setup = test::toySetup(toy);
-    setup.file = caseOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n  checks:\n{}", checks));
+    setup.file = caseOf(fmt::format("  every: 0.01\n  let: {{one: 0.5 + 0.5}}\n{}  checks:\n{}", more, checks));
     return runCase("flight", setup, test::toyBackends(toy), [] { return false; });
 }
 
@@ -48,6 +48,50 @@ TEST(Validation, ForcesAreMeansSinceTheLastReading)
             {.push = 1.0});
     ASSERT_EQ(result.findings.size(), 6u) << result.failure;
     for (std::size_t i = 0; i < 6; ++i) EXPECT_TRUE(result.findings[i].passes) << i << ": " << result.findings[i].value;
+}
+
+/// The toy is at 1, 1.01, … 1.05; the band is 0.01 wide to both sides of 1.01 and 1.03, linear between.
+TEST(Validation, ReadingsAreHeldAgainstTheBandThatWasMeasured)
+{
+    const std::string table = "table: [[0.01, 1.01, 1.0, 1.02], [0.03, 1.01, 1.0, 1.02], [0.04, 1.04, 1.03, 1.05]]";
+    const CaseResult result = fly("    - {read: liquid_x + 1, take: share_inside, at_least: 0.75, " + table +
+                                  "}\n"
+                                  "    - {read: liquid_x + 1, take: share_inside, at_least: 0.76, " +
+                                  table + "}\n");
+    ASSERT_EQ(result.findings.size(), 2u) << result.failure;
+    EXPECT_EQ(result.readings[0].size(), 4u) << "none is held against what was not measured";
+    EXPECT_DOUBLE_EQ(result.readings[0][1].upper, 1.02);
+    EXPECT_DOUBLE_EQ(result.findings[0].value, 0.75);
+    EXPECT_TRUE(result.findings[0].passes);
+    EXPECT_FALSE(result.findings[1].passes);
+}
+
+TEST(Validation, ReadingsWithoutAValueAreWhatTheCheckSays)
+{
+    const CaseResult dry = fly("    - {read: \"surface_y(9, 9)\", otherwise: -2, expect: -2, within: 0}\n");
+    EXPECT_TRUE(dry.passes()) << dry.failure;
+    EXPECT_FALSE(fly("    - {read: \"surface_y(9, 9)\", expect: -2, within: 0}\n").passes());
+}
+
+/// A limit of the model is told with what is found, and fails nothing; a run that finds nothing does.
+TEST(Validation, WhatIsSaidToBeOutsideIsTold)
+{
+    const CaseResult result =
+        fly("    - {name: level, read: liquid_x + 1, expect: 2, tolerance: 0.2, outside: it only flies}\n"
+            "    - {name: near, read: liquid_x + 1, expect: 1, tolerance: 0.2}\n"
+            "    - {name: better, read: liquid_x + 1, expect: 1, tolerance: 0.2, outside: so it was once}\n",
+            {}, "  kind: measured\n");
+    EXPECT_TRUE(result.passes());
+    const std::string report = validationReport({result}, false, false);
+    for (const char* part : {"1 of 1 cases pass", "## Measured", "| level | 1.05 | 2 | -47.50 % | within 20 % | outside, as said below |",
+                             "| within 20 % | inside |", "| inside, said to be outside |", "Outside: level. it only flies"})
+        EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
+    EXPECT_EQ(report.find("## Theory"), std::string::npos);
+
+    const CaseResult plain = fly("    - {read: liquid_x + 1, expect: 2, tolerance: 0.2}\n", {}, "  kind: measured\n");
+    EXPECT_FALSE(plain.passes());
+    EXPECT_NE(validationReport({plain}, false, false).find("| **outside** |"), std::string::npos);
+    EXPECT_FALSE(fly("    - {read: liquid_x, take: period, at_most: 9, outside: it only flies}\n", {}, "  kind: measured\n").passes());
 }
 
 TEST(Validation, WhatHasNoValueFails)
@@ -93,6 +137,17 @@ TEST(Validation, MistakesNameTheirLine)
         {"  every: 1\n  checks:\n    - {read: speed, expect: 1}\n", "case.yaml:5: validate.checks.0: expect needs tolerance"},
         {"  every: 1\n  checks:\n    - {read: speed, take: mean_error, at_most: 1}\n",
          "case.yaml:5: validate.checks.0: an error needs expect or table"},
+        {"  every: 1\n  checks:\n    - {read: speed, take: last, table: [[0, 1]], at_most: 1}\n",
+         "case.yaml:5: validate.checks.0: a table is compared by take: mean_error, largest_error, rms_error or share_inside"},
+        {"  every: 1\n  checks:\n    - {read: speed, take: share_inside, table: [[0, 1], [1, 2]], at_least: 0.8}\n",
+         "case.yaml:5: validate.checks.0: share_inside needs a table with a band, like [[0, 1, 0.9, 1.1]"},
+        {"  every: 1\n  checks:\n    - {read: speed, take: share_inside, table: [[0, 1, 0, 2], [1, 2]], at_least: 0.8}\n",
+         "case.yaml:5: validate.checks.0.table"},
+        {"  every: 1\n  checks:\n    - {read: speed, take: share_inside, table: [[0, 1, 1.5, 2]], at_least: 0.8}\n",
+         "case.yaml:5: validate.checks.0.table: a row with a band is [against, value, lower, upper]"},
+        {"  every: 1\n  kind: guessed\n  checks: [{read: 1, at_most: 1}]\n", "case.yaml:4: validate.kind"},
+        {"  every: 1\n  checks:\n    - {read: speed, at_most: 1, outside: too fast}\n",
+         "case.yaml:5: validate.checks.0.outside: is for what was measured: validate needs kind: measured"},
         {"  every: 1\n  checks:\n    - {read: speed, take: middle, at_most: 1}\n", "case.yaml:5: validate.checks.0.take"},
         {"  every: 1\n  checks:\n    - {read: speed, at_most: 1, colour: 3}\n", "unknown key \"colour\""},
         {"  every: 1\n  flow: [\"1\", \"2\"]\n  checks: [{read: 1, at_most: 1}]\n", "case.yaml:4: validate.flow: needs three formulas"},
