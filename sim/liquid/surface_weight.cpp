@@ -24,6 +24,15 @@ struct Column {
     bool isTopFree = false;  ///< the highest has no pressure
 };
 
+/// The face so many cells further along an axis; the same where there is no block.
+CellRef faceBeside(const BlockGrid& grid, const CellRef& face, int axis, int step)
+{
+    if (face.block == grid.count()) return face;
+    Vec3i at(face.cell & 7, face.cell >> 3 & 7, face.cell >> 6);
+    at[axis] += step;
+    return cellNear(grid, face.block, at.x(), at.y(), at.z());
+}
+
 /// Finds the columns of the surface layer along one axis.
 class SurfaceColumns {
  public:
@@ -65,13 +74,7 @@ class SurfaceColumns {
     }
 
  private:
-    CellRef beside(const CellRef& face, int step) const
-    {
-        if (face.block == grid_.count()) return face;
-        Vec3i at(face.cell & 7, face.cell >> 3 & 7, face.cell >> 6);
-        at[axis_] += step;
-        return cellNear(grid_, face.block, at.x(), at.y(), at.z());
-    }
+    CellRef beside(const CellRef& face, int step) const { return faceBeside(grid_, face, axis_, step); }
     bool exists(const CellRef& face) const { return face.block != grid_.count(); }
     bool isKnown(const CellRef& face) const { return exists(face) && bodies_.coefficient().block(face.block, axis_)[face.cell] > 0.0; }
     bool isWet(const CellRef& face) const { return exists(face) && liquid_.wet.test(face.block, face.cell, axis_); }
@@ -172,7 +175,7 @@ struct Levelling {
     {
         const int top = column.size - 1, highest = column.isTopFree ? top - 1 : top;
         const CellRef &below = column.face[highest], &above = column.face[top];
-        const CellRef cell = gravityStep < 0.0 ? below : column.isTopFree ? above : beside(below, -1);
+        const CellRef cell = gravityStep < 0.0 ? below : column.isTopFree ? above : faceBeside(cut.grid, below, axis, -1);
         double impulse = 0.0;
         if (column.isTopFree) {
             impulse = std::abs(gravityStep) * weight[top] / cut.field.room(above.block, axis)[above.cell];
@@ -180,12 +183,6 @@ struct Levelling {
             weight[top] = 0.0;
         }
         if (cell.block != cut.grid.count()) beyond.bear(axis, cell, impulse, level - highest + kSurfaceColumn);
-    }
-    CellRef beside(const CellRef& face, int step) const
-    {
-        Vec3i at(face.cell & 7, face.cell >> 3 & 7, face.cell >> 6);
-        at[axis] += step;
-        return cellNear(cut.grid, face.block, at.x(), at.y(), at.z());
     }
 
     void operator()(const Column& column) const
