@@ -27,8 +27,6 @@ class SimulationHandle {
     virtual const sim::ActiveContacts* contacts() const = 0;  ///< contacts between fabric and fabric in the last step; null where there are none
     virtual const sim::LiquidGrid& liquidGrid() const = 0;    ///< fields of the last step, in state().grid
     virtual const sim::Forces& forces() const = 0;            ///< forces of the last step
-    /// What the last step's reflection pressed beyond its pressure, in state().grid [dyn/cm^2]; null if it did not reflect.
-    virtual const sim::BlockArray<double>* pressureOfReflection() const = 0;
     /// One time step, at most up to `until` [s]. Throws RunError.
     virtual sim::StepReport step(double until) = 0;
     virtual sim::Energies energies() const = 0;  ///< energies of the state as it is [erg]

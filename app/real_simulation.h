@@ -19,10 +19,6 @@ class RealSimulation : public SimulationHandle {
     }
     const sim::LiquidGrid& liquidGrid() const override { return simulation_.workspace().grid; }
     const sim::Forces& forces() const override { return simulation_.forces(); }
-    const sim::BlockArray<double>* pressureOfReflection() const override
-    {
-        return state().reflected ? &simulation_.workspace().reflection.potential : nullptr;
-    }
     sim::StepReport step(double until) override { return simulation_.step(until); }
     sim::Energies energies() const override { return simulation_.energies(); }
     void bookEnergy() override { simulation_.bookEnergy(); }

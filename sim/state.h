@@ -37,14 +37,15 @@ struct StepHistory {
 
 /// All that evolves but the liquid's particles, which are most of it.
 struct NonParticleState {
-    double time = 0.0;                    ///< [s]
-    std::int64_t step = 0;                ///< steps taken
-    double lastDt = 0.0;                  ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
-    bool reflected = false;               ///< the last step was the first of two: particles hold reflected velocities
-    std::uint32_t nextId = 0;             ///< id of the next particle to be born
-    BlockGrid grid;                       ///< blocks of the last step
-    BlockArray<double> pressure;          ///< pressure in these blocks, from which the next solve starts [dyn/cm^2]
-    BlockArray<double> pressureOfStrain;  ///< part of the pressure that the strain correction called for; empty before there was one [dyn/cm^2]
+    double time = 0.0;                        ///< [s]
+    std::int64_t step = 0;                    ///< steps taken
+    double lastDt = 0.0;                      ///< length of the last step, since whose gather the particles have moved; 0 before the first [s]
+    bool reflected = false;                   ///< the last step was the first of two: particles hold reflected velocities
+    std::uint32_t nextId = 0;                 ///< id of the next particle to be born
+    BlockGrid grid;                           ///< blocks of the last step
+    BlockArray<double> pressure;              ///< pressure in these blocks, from which the next solve starts [dyn/cm^2]
+    BlockArray<double> pressureOfStrain;      ///< part of it that the strain correction called for; empty before there was one [dyn/cm^2]
+    BlockArray<double> pressureOfReflection;  ///< while `reflected`: what the second of the two steps has no need of any more [dyn/cm^2]
     FabricState fabric;
     std::vector<double> emittedVolume;  ///< volume emitted by each source so far [cm^3]
     double unrelaxed = 0.0;             ///< time since the particles were last relaxed [s]

@@ -129,6 +129,7 @@ void visitMatter(V& v, S& state)
     std::size_t hasStrain = state.grid.count() > 0 && state.pressureOfStrain.size() > 0 ? 1 : 0;
     v.number("grid/has_pressure_of_strain", "-", hasStrain);
     if (hasStrain > 0) visitCells(v, "grid/pressure_of_strain", "dyn/cm^2", state.grid, 1, state.pressureOfStrain);
+    if (state.reflected) visitCells(v, "grid/pressure_of_reflection", "dyn/cm^2", state.grid, 1, state.pressureOfReflection);
     visitFabric(v, state.fabric);
     v.list("emitted_volume", "cm^3", state.emittedVolume);
     v.number("unrelaxed", "s", state.unrelaxed);

@@ -43,6 +43,7 @@ void finish(StepContext& c)
 {
     State& state = c.state;
     StepReport& report = c.report;
+    completePressure(c);
     sumMasses(state, c.work.coupling != nullptr, report);
     c.work.momentum.finish();
     for (const Impulse& pins : c.work.momentum.forces().pins) report.pinImpulse += pins.linear;

@@ -25,17 +25,13 @@ void forEachPlace(const ControlSurface& disc, int count, F&& f)
     }
 }
 
-/// Mean pressure on a disc in the last step, with what its reflection pressed [dyn/cm^2].
+/// Mean pressure on a disc in the last step [dyn/cm^2].
 double pressureOn(const ControlSurface& disc, const SimulationHandle& simulation)
 {
     constexpr int kPlaces = 32;
     const sim::State& state = simulation.state();
-    const sim::BlockArray<double>* again = simulation.pressureOfReflection();
     double sum = 0.0;
-    forEachPlace(disc, kPlaces, [&](const Vec3& x) {
-        sum += smoothPressure(state, x);
-        if (again) sum += smoothInLiquid(state.grid, *again, x);
-    });
+    forEachPlace(disc, kPlaces, [&](const Vec3& x) { sum += smoothPressure(state, x); });
     return sum / kPlaces;
 }
 

@@ -23,7 +23,6 @@ class StoredSimulation : public SimulationHandle {
     const sim::ActiveContacts* contacts() const override { return nullptr; }
     const sim::LiquidGrid& liquidGrid() const override { refuse("fronts and flow_error"); }
     const sim::Forces& forces() const override { return forces_; }
-    const sim::BlockArray<double>* pressureOfReflection() const override { refuse("pressures on discs"); }
     sim::StepReport step(double) override { refuse("steps"); }
     sim::Energies energies() const override { refuse("energies"); }
     void bookEnergy() override { refuse("energies"); }

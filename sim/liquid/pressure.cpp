@@ -197,6 +197,15 @@ void findRightHandSide(const CutGrid& cut, const LiquidCells& cells, const Block
     addInflow(inflow, rhs);
 }
 
+void addPressure(double share, const BlockArray<double>& more, const BlockGrid& grid, BlockArray<double>& pressure)
+{
+    parallelFor(grid.count(), 8, [&](std::size_t b) {
+        double* sum = pressure.block(static_cast<int>(b));
+        const double* added = more.block(static_cast<int>(b));
+        for (int i = 0; i < kBlockCells; ++i) sum[i] += share * added[i];
+    });
+}
+
 double largestDivergence(const CutGrid& cut, const LiquidGrid& liquid)
 {
     return parallelMax(cut.grid.count(), [&](std::size_t n) {

@@ -129,6 +129,9 @@ void forEachPressureFace(const CutGrid& cut, const PressureFaces& faces, const B
         }
 }
 
+/// pressure += share more, in all blocks.
+void addPressure(double share, const BlockArray<double>& more, const BlockGrid& grid, BlockArray<double>& pressure);
+
 /// Largest |div(ω u + (1 − ω) v_S)| over the cells with a pressure [1/s].
 double largestDivergence(const CutGrid& cut, const LiquidGrid& liquid);
 

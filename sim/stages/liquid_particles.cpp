@@ -1,4 +1,5 @@
 #include "sim/core/parallel.h"
+#include "sim/liquid/pressure.h"
 #include "sim/liquid/relax_at_walls.h"
 #include "sim/sources/emit.h"
 #include "sim/stages/correction.h"
@@ -21,14 +22,22 @@ void remapPressure(const BlockGrid& grid, const ParticleOrder& order, BlockArray
     });
 }
 
-/// The first solve of a step starts from the pressure without what the strain correction added.
-void takeOffStrain(State& state)
+/// The first solve of a step starts from what it will find: without what the strain correction added, and without what the step before this one
+/// reflected.
+void expectPressure(StepContext& c)
 {
-    parallelFor(state.grid.count(), 8, [&](std::size_t b) {
-        double* pressure = state.pressure.block(static_cast<int>(b));
-        const double* strain = state.pressureOfStrain.block(static_cast<int>(b));
-        for (int i = 0; i < kBlockCells; ++i) pressure[i] -= strain[i];
-    });
+    State& state = c.state;
+    Workspace& work = c.work;
+    remapPressure(state.grid, work.order, work.oldPressure, state.pressure);
+    if (state.pressureOfStrain.size() > 0) {
+        remapPressure(state.grid, work.order, work.oldPressure, state.pressureOfStrain);
+        addPressure(-1.0, state.pressureOfStrain, state.grid, state.pressure);
+        if (!c.correctsStrain()) state.pressureOfStrain = {};
+    }
+    if (state.reflected) {
+        remapPressure(state.grid, work.order, work.oldPressure, state.pressureOfReflection);
+        addPressure(-1.0, state.pressureOfReflection, state.grid, state.pressure);
+    }
 }
 
 }  // namespace
@@ -55,12 +64,7 @@ void sort(StepContext& c)
     if (!c.plan.isWet) return;
     const StageScope scope(c.clock, Stage::Sort);
     sortParticles(state.liquid, grid, c.scene.domain ? &*c.scene.domain : nullptr, work.order, &state.ledger);
-    remapPressure(grid, work.order, work.oldPressure, state.pressure);
-    if (state.pressureOfStrain.size() > 0) {
-        remapPressure(grid, work.order, work.oldPressure, state.pressureOfStrain);
-        takeOffStrain(state);
-        if (!c.correctsStrain()) state.pressureOfStrain = {};
-    }
+    expectPressure(c);
     work.grid.resize(grid.count(), c.keepsAdvected());
     work.grid.fullMass = work.packing * c.settings().liquid.density * grid.dx * grid.dx * grid.dx;
     work.momentum.left(state);

@@ -63,12 +63,7 @@ void findStrainedFaces(StepContext& c)
 /// Add the pressure that took out the divergence of the strain correction to that before it.
 void addToPressure(const SolveReport& again, StepContext& c)
 {
-    State& state = c.state;
-    parallelFor(state.grid.count(), 8, [&](std::size_t b) {
-        double* pressure = state.pressure.block(static_cast<int>(b));
-        const double* more = state.pressureOfStrain.block(static_cast<int>(b));
-        for (int i = 0; i < kBlockCells; ++i) pressure[i] += more[i];
-    });
+    addPressure(1.0, c.state.pressureOfStrain, c.state.grid, c.state.pressure);
     SolveReport& report = c.report.pressure;
     report.iterations += again.iterations;
     report.converged = again.converged;
@@ -238,6 +233,13 @@ void reflect(StepContext& c)
     c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, *c.plan.pressure, surface, work.reflection);
     restoreMomentum(c, work.reflection.velocity);
     c.energy.reflected(c.dt);
+}
+
+void completePressure(StepContext& c)
+{
+    State& state = c.state;
+    if (state.reflected) addPressure(1.0, state.pressureOfReflection, state.grid, state.pressure);
+    if (c.plan.reflects) state.pressureOfReflection.swap(c.work.reflection.potential);
 }
 
 }  // namespace sim

@@ -56,6 +56,8 @@ void bookInflowWork(StepContext& c);
 void correctVolume(StepContext& c);
 /// Pressure and surface tension leave free liquid the momentum that it has, and walls add no energy to it.
 void conserveMomentum(StepContext& c);
+/// What the first of two steps reflected belongs to the pressure of the second, which finds none of it.
+void completePressure(StepContext& c);
 
 // fabric.cpp: the fabric, with what the liquid does to it.
 

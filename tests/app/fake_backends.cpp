@@ -42,7 +42,6 @@ class ToySimulation : public SimulationHandle {
     const sim::ActiveContacts* contacts() const override { return nullptr; }
     const sim::LiquidGrid& liquidGrid() const override { return grid_; }
     const sim::Forces& forces() const override { return forces_; }
-    const sim::BlockArray<double>* pressureOfReflection() const override { return nullptr; }
     void bookEnergy() override { booksEnergy_ = true; }
     sim::Energies energies() const override { return {{.kinetic = toy_.speed * toy_.speed, .potential = -state_.liquid.x[0][0]}, {}}; }
     void setChanges(std::vector<sim::SettingsChange>) override {}
