@@ -103,6 +103,53 @@ TEST(DriftingFabric, GainsNothingOfItsOwnOnTheGrid)
     }
 }
 
+/// Centre of mass [cm], or of `values` in place of positions.
+Vec3 meanOf(const Fabric& fabric, std::span<const Vec3> values)
+{
+    Vec3 sum = Vec3::Zero();
+    double mass = 0.0;
+    for (std::size_t v = 0; v < values.size(); ++v) sum += fabric.mass[v] * values[v], mass += fabric.mass[v];
+    return sum / mass;
+}
+
+/// Loads of liquid that goes by, uneven as cells make them: of steps of h, in which it takes `rate` of the difference of the velocities [1/s].
+LiquidLoads unevenLoads(const Fabric& fabric, const Vec3& velocity, double rate, double h, Noise& noise)
+{
+    LiquidLoads loads;
+    for (const double mass : fabric.mass) {
+        loads.drag.push_back(mass * rate * h * (Vec3::Ones() + 0.2 * noise.vector()));
+        loads.impulse.push_back(loads.drag.back().cwiseProduct(velocity + 0.02 * velocity.norm() * noise.vector()));
+    }
+    return loads;
+}
+
+/// What liquid carries along gains next to nothing of its own, here and there, and loses it again: none of its way is taken back for that.
+TEST(DriftingFabric, GoesAsFarInLiquidAsItsSpeedSays)
+{
+    Noise noise(14);
+    for (int n = 0; n < 24; ++n) {
+        FabricSettings settings;
+        settings.integrator = n % 2 == 0 ? FabricTimeIntegrator::SecondOrder : FabricTimeIntegrator::BackwardEuler;
+        const Vec3 along = noise.vector().normalized();
+        FabricPiece yarn = testing::pieceOf(strand(Vec3::Zero(), Vec3(2.0 * along), 12), testing::wool(), {0.06, 0.06});
+        FabricRun run(n % 4 < 2 ? yarn : testing::cloth(6, noise.vector()), settings);
+        const Vec3 flow = 30.0 * noise.vector();
+        const double h = std::pow(10.0, -3.3 + 0.5 * noise()), rate = std::pow(10.0, 1.5 + noise());
+        const Vec3 start = meanOf(run.fabric, run.state.x);
+        Vec3 way = Vec3::Zero();
+        for (int step = 0; step < 100; ++step) {
+            const LiquidLoads loads = unevenLoads(run.fabric, flow, rate, h, noise);
+            const Vec3 before = meanOf(run.fabric, run.state.v);
+            StageTimes stages;
+            StageClock clock(stages);
+            run.solver.advance(step * h, h, run.gravity, run.state, clock, {.onVertices = &loads});
+            const Vec3 after = meanOf(run.fabric, run.state.v);
+            way += h * (settings.integrator == FabricTimeIntegrator::SecondOrder ? Vec3(0.5 * (before + after)) : after);
+        }
+        EXPECT_LT((meanOf(run.fabric, run.state.x) - start - way).norm(), 5.0e-3 * way.norm()) << n;
+    }
+}
+
 /// A rod across a direction, thinner than meshes are wide.
 ObstacleSettings rodAcross(const Vec3& direction, const Vec3& at)
 {

@@ -39,6 +39,17 @@ double VertexSolver::allowedEnergy(double h, const FabricState& state)
                                     });
 }
 
+/// Work of gravity that groups which nothing holds have in their speed and not in their way, by the scheme of second order [erg]: their momentum is
+/// exact, and their way is h² (A − a)/8 longer than its mean speeds. This is to and fro, and not energy from nothing.
+double VertexSolver::aheadOfWay(double h, const FabricState& state, const FabricGroups& groups) const
+{
+    if (!isSecondOrder_ || !groups.anyFree()) return 0.0;
+    return parallelSum(state.x.size(), [&](std::size_t v) {
+        if (groups.freeGroupOf(groups.pieceOf(static_cast<int>(v))) < 0) return 0.0;
+        return mass_[v] * gravity_.dot(0.5 * h * (start_.v[v] + state.v[v]) - (state.x[v] - start_.x[v]));
+    });
+}
+
 /// Kinetic energy of a motion, or of one that is not felt [erg].
 double VertexSolver::referenceEnergy(double kinetic, double h) const
 {
@@ -47,16 +58,28 @@ double VertexSolver::referenceEnergy(double kinetic, double h) const
 }
 
 /// Energy that a step gained from nothing, relative to that of its motion but for the drift of what nothing holds, beyond that of contact which
-/// was not seen at its start; less than what is not felt counts as none.
+/// was not seen at its start; less than what is not felt counts as none. The scheme of second order is not held to take energy in every step: with
+/// what its steps gained and have not lost again (owed) it may have as much as is not felt.
 double VertexSolver::gain(double h, const FabricState& state)
 {
     made_ = energies(state, gravity_).total() - allowedEnergy(h, state) - undetectedAtStart_;
-    if (made_ <= 0.0) return 0.0;
+    if (made_ <= 0.0 && !isSecondOrder_) return 0.0;
     attemptGroups_.begin();
     findGroups(attemptGroups_);
+    made_ -= aheadOfWay(h, state, attemptGroups_);
+    if (made_ <= 0.0) return 0.0;
     const double scale = referenceEnergy(ownKinetic(fabric_, attemptGroups_, mass_, state), h);
-    const double spurious = made_ - recovered(state, attemptGroups_);
-    return spurious <= kNegligibleGain * scale ? 0.0 : spurious / scale;
+    const double spurious = gainSoFar(state, attemptGroups_);
+    return spurious <= std::max(kNegligibleGain * scale, bearableGain(h)) ? 0.0 : spurious / scale;
+}
+
+/// Energy that may come and go with steps of the scheme of second order [erg]: as much as is not felt.
+double VertexSolver::bearableGain(double h) const { return isSecondOrder_ ? referenceEnergy(0.0, h) : 0.0; }
+
+/// What the attempt made, and by the scheme of second order what steps before it made and none has lost since [erg].
+double VertexSolver::gainSoFar(const FabricState& state, const FabricGroups& groups) const
+{
+    return made_ - recovered(state, groups) + (isSecondOrder_ ? start_.vertexSolver.owed : 0.0);
 }
 
 /// What was lost where things met is lost for good.
@@ -82,7 +105,8 @@ std::optional<EnergyChanges> VertexSolver::dissipateGain(double h, FabricState& 
     std::optional<EnergyChanges> changes;
     if (booksEnergy_) changes = energyChanges(h, state);
     const double given = changes ? externalWork(*changes) : workOutside(h, state);
-    const double due = start_.vertexSolver.owed + energies(state, gravity_).total() - startEnergies_.total() - given - recovered(state, groups_);
+    const double due = start_.vertexSolver.owed + energies(state, gravity_).total() - startEnergies_.total() - given - recovered(state, groups_) -
+                       aheadOfWay(h, state, groups_);
     const double paid = payOwed(due, fabric_, groups_, mass_, state);
     if (changes) (*changes)[EnergyChange::Implicit] -= paid;
     return changes;
@@ -94,14 +118,18 @@ void VertexSolver::removeSpuriousGain(const Part& part)
 {
     const double h = part.h;
     FabricState& state = part.state;
-    const double allowed = allowedEnergy(h, state) + recovered(state, groups_);
-    const auto due = [&] { return energies(state, gravity_).total() - allowed; };
-    const auto canPay = [&] { return due() <= ownKinetic(fabric_, groups_, mass_, state); };
-    if (canPay()) {
+    const double before = isSecondOrder_ ? start_.vertexSolver.owed : 0.0, back = recovered(state, groups_);
+    const auto due = [&] { return before + energies(state, gravity_).total() - allowedEnergy(h, state) - back - aheadOfWay(h, state, groups_); };
+    const auto canPay = [&] { return due() <= ownKinetic(fabric_, groups_, mass_, state) + bearableGain(h); };
+    const auto pay = [&] {
         slowDown(due(), fabric_, groups_, mass_, state);
+        if (isSecondOrder_) state.vertexSolver.owed = std::max(0.0, due());
+    };
+    if (canPay()) {
+        pay();
         return;
     }
-    SubstepDisplacement displacement{std::vector<Vec3>(state.x.size()), {}, std::vector<double>(state.theta.size())};
+    SubstepDisplacement displacement{std::vector<Vec3>(state.x.size()), {}, groups_.drifts(mass_, state.v), std::vector<double>(state.theta.size())};
     for (std::size_t v = 0; v < state.x.size(); ++v) displacement.moves[v] = state.x[v] - start_.x[v];
     for (std::size_t e = 0; e < state.theta.size(); ++e) displacement.turns[e] = state.theta[e] - start_.theta[e];
     displacement.drift = groups_.drifts(mass_, displacement.moves);
@@ -117,7 +145,7 @@ void VertexSolver::removeSpuriousGain(const Part& part)
         for (std::size_t v = 0; v < state.v.size(); ++v)
             if (!fabric_.pinned[v]) state.v[v] += drift[groups_.pieceOf(static_cast<int>(v))];
     }
-    slowDown(due(), fabric_, groups_, mass_, state);
+    pay();
 }
 
 /// Moves from the start of the attempt a share of the way against the drift, and all of the drift.
@@ -138,6 +166,11 @@ void VertexSolver::applyFraction(const Part& part, const SubstepDisplacement& di
     solidLimiter_.rest();
     for (std::size_t e = 0; e < displacement.turns.size(); ++e) state.theta[e] += share * displacement.turns[e];
     findMeanRates(part.h, state);
+    if (isSecondOrder_)
+        for (std::size_t v = 0; v < state.v.size(); ++v) {
+            const int piece = groups_.pieceOf(static_cast<int>(v));
+            state.v[v] += displacement.driftVelocity[piece] - displacement.drift[piece] / part.h;
+        }
     storeContacts(part.h, state);
 }
 

@@ -205,8 +205,9 @@ bool VertexSolver::trySubstep(const Part& part)
     findGroups(groups_);
     const bool mayHaveGained = startIsChecked_ || isShort;
     if (mayHaveGained && !isDriven_) removeSpuriousGain(part);
+    else if (isSecondOrder_ && !isDriven_) state.vertexSolver.owed = std::max(0.0, gainSoFar(state, groups_));
     std::optional<EnergyChanges> changes;
-    if ((mayHaveGained && isDriven_) || start_.vertexSolver.owed > 0.0) changes = dissipateGain(h, state);
+    if ((mayHaveGained && isDriven_) || (start_.vertexSolver.owed > 0.0 && (isDriven_ || !isSecondOrder_))) changes = dissipateGain(h, state);
     if (isSecondOrder_) keepRecoverable(state);
     if (state.vertexSolver.owed > 0.0) throwJammed(fabric_, state, referenceEnergy(energies(state, gravity_).kinetic, h));
     if (booksEnergy_ && !changes) changes = energyChanges(h, state);

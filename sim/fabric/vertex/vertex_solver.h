@@ -124,13 +124,17 @@ class VertexSolver final : public FabricIntegrator {
     double recovered(const FabricState& state, const FabricGroups& groups) const;
     void iterate(const Part& part, Newton& newton);
     double allowedEnergy(double h, const FabricState& state);
+    double bearableGain(double h) const;
+    double gainSoFar(const FabricState& state, const FabricGroups& groups) const;
+    double aheadOfWay(double h, const FabricState& state, const FabricGroups& groups) const;
     std::optional<EnergyChanges> dissipateGain(double h, FabricState& state);
     void removeSpuriousGain(const Part& part);
     /// Displacement of a substep: vertices, rigid drift of groups, twist.
     struct SubstepDisplacement {
-        std::vector<Vec3> moves;    ///< displacement of each vertex [cm]
-        std::vector<Vec3> drift;    ///< displacement of each piece's group, where nothing holds it, else 0 [cm]
-        std::vector<double> turns;  ///< twist of each yarn edge [rad]
+        std::vector<Vec3> moves;          ///< displacement of each vertex [cm]
+        std::vector<Vec3> drift;          ///< displacement of each piece's group, where nothing holds it, else 0 [cm]
+        std::vector<Vec3> driftVelocity;  ///< velocity of it at the end of the attempt [cm/s]
+        std::vector<double> turns;        ///< twist of each yarn edge [rad]
     };
     void applyFraction(const Part& part, const SubstepDisplacement& displacement, double share);
     void findGroups(FabricGroups& groups) const;
