@@ -1,6 +1,7 @@
 #include "app/readings/measures.h"
 
 #include "app/backends.h"
+#include "app/readings/shadow.h"
 
 #include <fmt/format.h>
 
@@ -198,6 +199,25 @@ void Measures::addFabricAlong(int a, Names& names)
                          const auto isWet = [&](std::size_t v) { return state().absorbed[v] >= s[0] * density_ * sim::poreVolume(fabric, v); };
                          return extent(state().x, a, isWet);
                      }});
+}
+
+std::vector<sim::FormulaNames::OfName> Measures::shadows()
+{
+    std::vector<sim::FormulaNames::OfName> names;
+    for (int a = 0; a < kAxes; ++a) names.push_back({along("shadow_", a), [this, a](const std::string& name) { return shadowOf(name, a); }});
+    return names;
+}
+
+double Measures::shadowOf(const std::string& name, int axis) const
+{
+    const auto found = std::ranges::find(forceNames_.fabrics, name);
+    if (found == forceNames_.fabrics.end()) throw sim::FormulaError(fmt::format("there is no fabric \"{}\"", name));
+    if (!simulation_) return 0.0;
+    const sim::Fabric::Faces& faces = simulation_->fabric().faces;
+    std::vector<sim::Vec3i> own;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        if (faces.material[f] == found - forceNames_.fabrics.begin()) own.push_back(faces.vertices[f]);
+    return shadowArea(simulation_->state().fabric.x, own, axis);
 }
 
 Vec3 Measures::flowAt(const Vec3& x) const

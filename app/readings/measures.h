@@ -62,7 +62,8 @@ struct IntervalTotals {
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
 ///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
 ///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
-///    vertex), wet_a(saturation) (from the lowest to the highest of vertices whose pores are that full);
+///    vertex), wet_a(saturation) (from the lowest to the highest of vertices whose pores are that full), shadow_a("sheet") (area of the shadow
+///    of a cloth in light along the axis [cm^2]);
 ///  * forces [dyn] and torques about the origin [dyn cm], means over the steps since the last reading, 0 before the first: force_a("ball") and
 ///    torque_a("ball") of an obstacle or a fabric by liquid and contact together, liquid_force_a, liquid_torque_a, contact_force_a and
 ///    contact_torque_a by one of them, pin_force_a("sheet") and pin_torque_a by a fabric on all its pins, or on those of that name.
@@ -85,6 +86,7 @@ class Measures {
     void addControlSurface(const std::string& name, const ControlSurface& surface) { controlSurfaces_[name] = surface; }
     sim::FormulaNames::OfName flux();
     sim::FormulaNames::OfName pressures();
+    std::vector<sim::FormulaNames::OfName> shadows();
     /// Readings of forces, and of pressures on discs, are means over the steps that were taken since.
     void startInterval() { interval_ = {}; }
     void afterStep();
@@ -117,6 +119,7 @@ class Measures {
     double saturationAt(const sim::Vec3& x) const;
     double fluxThrough(const ControlSurface& resting) const;
     double front(int axis, double where) const;
+    double shadowOf(const std::string& name, int axis) const;
 
     sim::Impulse meanOn(const std::string& name, bool byLiquid, bool byContact) const;
     sim::Impulse meanOnPins(const std::string& name) const;

@@ -126,6 +126,7 @@ ReadingContext readContext(const sim::SectionReader& section, const sim::Scene& 
     context.reading.ofNames = measures.forces();
     context.reading.ofNames.push_back(measures.flux());
     context.reading.ofNames.push_back(measures.pressures());
+    for (sim::FormulaNames::OfName& shadow : measures.shadows()) context.reading.ofNames.push_back(std::move(shadow));
     return context;
 }
 

@@ -48,6 +48,14 @@ SchemaJson liquidSchema()
     return schema;
 }
 
+SchemaJson materialsSchema()
+{
+    sim::FabricMaterial values;
+    SchemaJson schema = declaredMap([&](KeyList& v) { visitFields(v, values); });
+    schema["properties"]["preset"]["enum"] = sim::fabricPresetNames();
+    return namedSchema(schema);
+}
+
 SchemaJson compareSchema()
 {
     CompareSettings values;
@@ -148,7 +156,6 @@ SchemaJson sceneProperties()
 {
     sim::Settings settings;
     sim::Scene scene;
-    sim::FabricMaterial material;
     RenderSettings render;
     KeyList top;
     visitFields(top, settings);
@@ -163,7 +170,7 @@ SchemaJson sceneProperties()
     const SchemaJson method = transfer["properties"]["method"];
     transfer = {{"anyOf", {method, transfer}}};
     properties.update({{"liquid", liquidSchema()},
-                       {"materials", namedSchema(declaredMap([&](KeyList& v) { visitFields(v, material); }))},
+                       {"materials", materialsSchema()},
                        {"fabrics", listSchema(definitionOf("fabric"))},
                        {"obstacles", listSchema(definitionOf("obstacle"))},
                        {"domain", definitionOf("shape")},

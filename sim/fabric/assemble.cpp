@@ -47,6 +47,7 @@ class PieceAssembly {
     {
         const std::size_t count = fabric_.vertexCount() + piece_.points.size();
         fabric_.materials.push_back(piece_.material);
+        fabric_.warp.push_back(piece_.warp);
         fabric_.rest.insert(fabric_.rest.end(), piece_.points.begin(), piece_.points.end());
         fabric_.mass.resize(count, 0.0);
         fabric_.volume.resize(count, 0.0);
@@ -110,11 +111,16 @@ class PieceAssembly {
         const Vec3i face(global(corners[0]), global(corners[1]), global(corners[2]));
         const Vec3 e1 = fabric_.rest[face[1]] - fabric_.rest[face[0]];
         const Vec3 e2 = fabric_.rest[face[2]] - fabric_.rest[face[0]];
-        const double area = 0.5 * e1.cross(e2).norm();
+        const Vec3 across = e1.cross(e2);
+        const double area = 0.5 * across.norm();
         constexpr double kFlattest = 1.0e-9;  // area per square of the edges: the rest is round-off
         if (!(area > kFlattest * (e1.squaredNorm() + e2.squaredNorm())))
             fail(fmt::format("the face {}, {}, {} has no area; remove it", piece_.called(corners[0]), piece_.called(corners[1]),
                              piece_.called(corners[2])));
+        constexpr double kSteepest = 1.0e-3;  // of the warp's part in the face
+        if (piece_.material.hasWarp() && piece_.warp.cross(across).norm() < kSteepest * across.norm())
+            fail(fmt::format("the warp goes through the face {}, {}, {} and not along it; choose another warp", piece_.called(corners[0]),
+                             piece_.called(corners[1]), piece_.called(corners[2])));
         const double thickness = piece_.radius[0] + piece_.radius[1];
         fabric_.faces.vertices.push_back(face);
         fabric_.faces.material.push_back(material_);

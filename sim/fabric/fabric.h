@@ -51,6 +51,7 @@ struct Fabric {
     };
 
     std::vector<FabricMaterial> materials;  ///< material of each piece of the scene, in its order
+    std::vector<Vec3> warp;                 ///< direction of the warp of each piece at rest
     std::vector<Vec3> rest;                 ///< position of each vertex at the start, free of stress [cm]
     std::vector<double> mass;               ///< dry mass of each vertex [g]
     std::vector<double> volume;             ///< envelope of each vertex with pores [cm^3]

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/scene/choice.h"
+#include "sim/scene/fabric_presets.h"
 #include "sim/scene/range.h"
 #include "sim/scene/scene.h"
 #include "sim/scene/units.h"
@@ -96,8 +97,12 @@ void visitFields(V& v, PorousSettings& p)
 template <class V>
 void visitFields(V& v, FabricMaterial& m)
 {
-    v.required("young", "Young's modulus of the fibres, like young: 6.6e+7 (dyn/cm^2) or young: 6.6 MPa");
-    v.number("young", m.young, Quantity::Pressure, Range::above(0.0), "Young's modulus of the fibres");
+    v.other("preset", "Sets the rest to what a common fabric has; what stands beside it holds, young in the place of its stiffnesses");
+    v.whenReading([&](auto& reader) {
+        readFabricPreset(reader, m);
+        if (m.young == 0.0) reader.required("young", "Young's modulus of the fibres, like young: 6.6e+7 (dyn/cm^2) or young: 6.6 MPa");
+    });
+    v.numberOr("young", m.young, 0.0, Quantity::Pressure, Range::above(0.0), "Young's modulus of the fibres; left out: that of preset");
     v.number("poisson", m.poisson, Quantity::None, Range::inside(-1.0, 0.5), "Poisson's ratio");
     v.fixed([&](auto& w) { w.number("density", m.density, Quantity::Density, Range::above(0.0), "Of the fibres"); });
     v.number("damping_viscosity", m.dampingViscosity, Quantity::Viscosity, Range::atLeast(0.0), "Viscosity of the fibres, which damps; 0 = none");
@@ -112,7 +117,18 @@ void visitFields(V& v, FabricMaterial& m)
         w.number("volume_fraction", m.volumeFraction, Quantity::None, Range::aboveTo(0.0, 1.0),
                  "Fibres per volume of fabric; left out: that of porous, 1 without it");
         w.number("section_rotation", m.sectionRotation, Quantity::Angle, Range::between(-360.0, 360.0), "Of an elliptic section about the yarn");
+        w.numberOr("thickness", m.thickness, 0.0, Quantity::Length, Range::above(0.0), "Of cloth that says no radius");
     });
+    v.numberOrPair("stretch_stiffness", m.stretchStiffness, Quantity::Stiffness, Range::atLeast(0.0),
+                   "Of cloth, force per width and strain along warp and weft; 0 = by young");
+    v.number("shear_stiffness", m.shearStiffness, Quantity::Stiffness, Range::atLeast(0.0),
+             "Of cloth with stretch_stiffness, force per width and angle; 0 = as if it were alike in all directions");
+    v.numberOrPair("bending_stiffness", m.bendingStiffness, Quantity::BendingStiffness, Range::atLeast(0.0),
+                   "Of cloth, moment per width and curvature, warp and weft bent; 0 = by young");
+    const auto areBoth = [](const std::array<double, 2>& of) { return (of[0] > 0.0) == (of[1] > 0.0); };
+    v.require(areBoth(m.stretchStiffness), "stretch_stiffness", "one of warp and weft is 0; give both, or 0 for both");
+    v.require(areBoth(m.bendingStiffness), "bending_stiffness", "one of warp and weft is 0; give both, or 0 for both");
+    v.require(m.shearStiffness == 0.0 || m.stretchStiffness[0] > 0.0, "shear_stiffness", "needs stretch_stiffness");
 }
 
 /// The sections of fabric that are plain settings.

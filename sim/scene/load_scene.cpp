@@ -73,11 +73,27 @@ void checkSource(const Scene& scene, std::size_t maxBoxes, SourceSettings& sourc
     }
 }
 
+/// Drag and suction know one diameter of fibres.
+void checkFibres(const Node& root, const Scene& scene)
+{
+    const NamedMaterial* first = nullptr;
+    for (const NamedMaterial& m : scene.materials) {
+        if (root.find("porous") || !(m.fibreDiameter > 0.0)) continue;
+        if (first && m.fibreDiameter != first->fibreDiameter)
+            fail(root.find("materials")->location,
+                 fmt::format("materials: fibres of {} are {:.2g} cm thick and those of {} {:.2g} cm, and liquid flows around one kind; say "
+                             "porous: {{fibre_diameter: {:.2g}, volume_fraction: 0.3}}",
+                             first->name, first->fibreDiameter, m.name, m.fibreDiameter, first->fibreDiameter));
+        if (!first) first = &m;
+    }
+}
+
 /// What liquid and fabric cannot do together.
-void checkCoupling(const Scene& scene)
+void checkCoupling(const Node& root, const Scene& scene)
 {
     const bool isWet = std::ranges::any_of(scene.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
     if (scene.fabrics.empty() || (scene.sources.empty() && !isWet)) return;
+    checkFibres(root, scene);
     const std::string& where = scene.fabrics[0].where;
     const CouplingSettings& coupling = scene.settings.coupling;
     if (coupling.drag == DragLaw::Nonlinear && coupling.dragExponent > 1.0 && scene.settings.liquid.viscosity == 0.0)
@@ -97,6 +113,21 @@ void checkCohesion(const Node& root, const Settings& settings)
     if (settings.fabric.solver == FabricSolver::Grid) refuse("fabric.solver grid has none; choose fabric.solver: vertex, or strength: 0");
     if (!settings.fabric.contact) refuse("acts where fabric touches, and fabric.contact is false; set that true, or strength: 0");
     if (!cohesion.fabric && !cohesion.obstacle) refuse("holds neither fabric nor obstacle; set one of them true, or strength: 0");
+}
+
+/// Laws of cloth that know no warp and weft.
+void checkWarp(const Node& root, const FabricSettings& fabric, const std::vector<NamedMaterial>& materials)
+{
+    const Node* section = root.find("fabric");
+    for (const NamedMaterial& m : materials) {
+        const auto refuse = [&](const char* law, const char* key, const char* other) {
+            fail(section ? section->location : root.location,
+                 fmt::format("fabric.{}: is alike in all directions, and materials.{} has {} along warp and weft; choose {}", law, m.name, key,
+                             other));
+        };
+        if (m.material.stretchStiffness[0] > 0.0 && fabric.membrane == MembraneModel::NeoHookean) refuse("membrane", "stretch_stiffness", "stvk");
+        if (m.material.bendingStiffness[0] > 0.0 && fabric.bending == BendingModel::Hinge) refuse("bending", "bending_stiffness", "shape_operator");
+    }
 }
 
 }  // namespace
@@ -129,6 +160,7 @@ void readSettings(const Node& root, Settings& settings, std::vector<NamedMateria
     SectionReader::read(root.find("liquid"), "liquid", [&](auto& v) { visitFields(v, settings.liquid); });
     materials = readMaterials(root, settings.porous);
     checkCohesion(root, settings);
+    checkWarp(root, settings.fabric, materials);
 }
 
 /// Tells of cloth between whose vertices liquid slips: what solver grid holds is in them, and reaches 1.5 cells.
@@ -190,7 +222,7 @@ Scene readScene(const SceneFile& file)
         noteWideMeshes(scene);
     }
     noteUnreadSettings(root, scene);
-    checkCoupling(scene);
+    checkCoupling(root, scene);
     scene.changes = readChanges(root, scene);
     return scene;
 }

@@ -62,6 +62,7 @@ class ParameterList : public IgnoresReading {
         p.unit = unitOf(q);
         p.range = range;
     }
+    void numberOrPair(const char* key, std::array<double, 2>& x, Quantity q, Range range, const char* help) { pair(key, x, q, range, help); }
     void color(const char* key, Eigen::Vector3f& x, const char* help)
     {
         add(key, Parameter::Kind::Numbers, fmt::format("[{:.4g}, {:.4g}, {:.4g}]", x[0], x[1], x[2]), help).range = Range::between(0.0, 1.0);

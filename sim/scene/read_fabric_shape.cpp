@@ -26,18 +26,43 @@ const Range kSize = Range::aboveTo(0.0, kFarthest);
 struct Context {
     const Node& node;
     std::string path;
+    double thickness = 0.0;  ///< of the material's cloth; 0: it has none [cm]
 
     [[noreturn]] void fail(const std::string& message) const { sim::fail(node.location, path + ": " + message); }
     int mostVertices() const { return node.location.source->bounds.vertices; }
 };
 
-/// The fields that every kind has.
+/// The fields that every kind of yarns has.
 template <class V>
 void describeThread(V& v, std::array<double, 2>& radius)
 {
     v.other("material", "Name of one of materials");
     v.required("radius", "half the thickness of a yarn or of the cloth, like radius: 0.02; [a, b] is an elliptic section");
     v.numberOrPair("radius", radius, Quantity::Length, kSize, "");
+}
+
+/// What says how thick cloth is, and where its warp runs.
+struct Sheet {
+    std::array<double, 2> radius{};  ///< [cm]
+    Vec3 warp = Vec3::UnitX();
+    bool hasWarp = false;  ///< the scene says which
+};
+
+template <class V>
+void describeSheet(V& v, Sheet& sheet, const Context& context)
+{
+    v.other("material", "Name of one of materials");
+    v.whenReading([&](auto& r) {
+        sheet.radius.fill(0.5 * context.thickness);
+        if (!(context.thickness > 0.0))
+            r.required("radius", "half the thickness of the cloth, like radius: 0.02, where its material has no thickness");
+        sheet.hasWarp = r.has("warp");
+    });
+    v.numberOrPair("radius", sheet.radius, Quantity::Length, kSize, "Half the thickness of the cloth; left out: of its material");
+    v.when(sheet.hasWarp, [&](auto& w) { w.vector("warp", sheet.warp, Quantity::None, "Direction of the warp; left out: the first axis"); });
+    v.whenReading([&](auto& r) {
+        if (sheet.hasWarp) sheet.warp = unitAxis(*r.find("warp"), context.path + ".warp", sheet.warp);
+    });
 }
 
 /// Where a sheet lies: from a corner, or around its middle, along two directions.
@@ -81,10 +106,11 @@ ReadFabricShape readClothGrid(const Context& context)
 {
     ClothGrid grid;
     Placement placement;
-    std::array<double, 2> radius{}, size{};
+    Sheet sheet;
+    std::array<double, 2> size{};
     bool bySize = false;
     const auto fields = [&](auto& v) {
-        describeThread(v, radius);
+        describeSheet(v, sheet, context);
         v.required("nodes", "the number of vertices each way, like nodes: [50, 50]");
         v.counts("nodes", grid.nodes, 2, context.mostVertices(), "");
         v.whenReading([&](auto& r) {
@@ -103,7 +129,7 @@ ReadFabricShape readClothGrid(const Context& context)
         size[axis] = grid.spacing[axis] * (grid.nodes[axis] - 1);
     }
     place(placement, size[0], size[1], context, grid);
-    return {clothGrid(grid), radius, text};
+    return {clothGrid(grid), sheet.radius, text, sheet.hasWarp ? sheet.warp : grid.u};
 }
 
 ReadFabricShape readWovenYarns(const Context& context)
@@ -173,15 +199,32 @@ ReadFabricShape readStrand(const Context& context)
     return {strand(all), radius, text + "]}"};
 }
 
+/// The points of an OBJ file with its faces, or with its lines as yarns.
+FabricGeometry geometryIn(const std::filesystem::path& file, bool isCloth)
+{
+    FabricGeometry out;
+    if (isCloth) {
+        TriangleMesh mesh = readObj(file);
+        out.points = std::move(mesh.vertices);
+        out.faces = std::move(mesh.triangles);
+    } else {
+        PolylineSet lines = readObjLines(file);
+        out.points = std::move(lines.vertices);
+        out.strands = std::move(lines.lines);
+    }
+    return out;
+}
+
 ReadFabricShape readFile(const Context& context, bool isCloth)
 {
-    std::array<double, 2> radius{};
+    Sheet sheet;
     std::string file;
     constexpr double kUnset = -1.0;
     double weldDistance = kUnset;
     double scale = parseNumber("1", Quantity::Length, context.node.location.source && context.node.location.source->isSi).value;
     const auto fields = [&](auto& v) {
-        describeThread(v, radius);
+        if (isCloth) describeSheet(v, sheet, context);
+        else describeThread(v, sheet.radius);
         v.required("file", isCloth ? "an OBJ file, relative to the scene, like file: shirt.obj"
                                    : "an OBJ file whose l lines are yarns, relative to the scene, like file: net.obj");
         v.text("file", file, "");
@@ -196,15 +239,7 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     file = path.string();
     FabricGeometry out;
     try {
-        if (isCloth) {
-            TriangleMesh mesh = readObj(path);
-            out.points = std::move(mesh.vertices);
-            out.faces = std::move(mesh.triangles);
-        } else {
-            PolylineSet lines = readObjLines(path);
-            out.points = std::move(lines.vertices);
-            out.strands = std::move(lines.lines);
-        }
+        out = geometryIn(path, isCloth);
     } catch (const InputError& e) {
         fail(name.location, fmt::format("{}: {}", context.path, e.what()));
     }
@@ -220,7 +255,7 @@ ReadFabricShape readFile(const Context& context, bool isCloth)
     requireFew(static_cast<double>(out.points.size()), context);
     if (const std::string problem = orientAlike(out.faces, firstInFile(out)); !problem.empty())
         fail(name.location, fmt::format("{}.file: {}", context.path, problem));
-    return {std::move(out), radius, flowOf(fields), std::move(notes)};
+    return {std::move(out), sheet.radius, flowOf(fields), sheet.warp, std::move(notes)};
 }
 
 }  // namespace
@@ -231,9 +266,9 @@ const std::vector<std::string>& fabricShapeKinds()
     return kKinds;
 }
 
-ReadFabricShape readFabricShape(const Node& node, const std::string& path, const std::string& kind)
+ReadFabricShape readFabricShape(const Node& node, const std::string& path, const std::string& kind, double thickness)
 {
-    const Context context{node, path};
+    const Context context{node, path, thickness};
     if (kind == "cloth_grid") return readClothGrid(context);
     if (kind == "woven_yarns") return readWovenYarns(context);
     if (kind == "strand") return readStrand(context);

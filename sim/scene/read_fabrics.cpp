@@ -44,12 +44,13 @@ const NamedMaterial& materialOf(const Node& piece, const Node& shape, const std:
     fail(name->location, fmt::format("{}.material: materials has no {}{}", path, inQuotes(text), suggestion(text, names)));
 }
 
-/// Moves the points; returns the words of it.
-std::string place(const Node& node, const std::string& path, std::vector<Vec3>& points)
+/// Moves the points and turns the warp; returns the words of it.
+std::string place(const Node& node, const std::string& path, FabricPiece& piece)
 {
     std::string text;
     const auto apply = [&](const ReadTransform& read, const char* key) {
-        for (Vec3& x : points) x = read.transform * x;
+        for (Vec3& x : piece.points) x = read.transform * x;
+        piece.warp = read.transform.linear() * piece.warp;
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, read.text);
     };
     SectionReader::read(&node, path, [](auto& v) {
@@ -57,7 +58,7 @@ std::string place(const Node& node, const std::string& path, std::vector<Vec3>& 
         v.other("translate", "");
     });
     Eigen::AlignedBox3d bounds;
-    for (const Vec3& x : points) bounds.extend(x);
+    for (const Vec3& x : piece.points) bounds.extend(x);
     if (const Node* turn = node.find("rotate")) apply(readRotation(*turn, joinPath(path, "rotate"), bounds.center()), "rotate");
     if (const Node* by = node.find("translate")) apply(readTranslation(*by, joinPath(path, "translate")), "translate");
     return "{" + text + "}";
@@ -85,15 +86,16 @@ FabricPiece readPiece(const Node& node, const std::string& name, const std::stri
     piece.where = node.location.text();
     readPieceFields(node, path, piece);
     const std::string kind = piece.kind = kindOf(node, path);
-    ReadFabricShape shape = readFabricShape(*node.find(kind), joinPath(path, kind), kind);
     const NamedMaterial& material = materialOf(node, *node.find(kind), path, scene.materials);
+    ReadFabricShape shape = readFabricShape(*node.find(kind), joinPath(path, kind), kind, material.material.thickness);
     piece.materialName = material.name;
     piece.material = material.material;
     piece.radius = shape.radius;
     piece.notes = std::move(shape.notes);
     piece.text = fmt::format("{{material: {}, {}", Node::scalar(material.name, {}).flow(), shape.text.substr(1));
     piece.points = shape.geometry.points;
-    if (const Node* transform = node.find("transform")) piece.transformText = place(*transform, joinPath(path, "transform"), piece.points);
+    piece.warp = shape.warp;
+    if (const Node* transform = node.find("transform")) piece.transformText = place(*transform, joinPath(path, "transform"), piece);
     if (const Node* pin = node.find("pin")) piece.pins = readPins(*pin, joinPath(path, "pin"), shape.geometry, piece.points, scene.settings.cell);
     piece.inFile = firstInFile(shape.geometry);
     piece.strands = std::move(shape.geometry.strands);

@@ -6,8 +6,9 @@
 
 namespace sim {
 
-/// Reads materials; `porous` gives the volume fraction of those that do not say theirs.
-std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings& porous);
+/// Reads materials; `porous` gives the volume fraction of those that do not say theirs. Where the scene has no section porous, it takes the
+/// fibres of the first preset.
+std::vector<NamedMaterial> readMaterials(const Node& root, PorousSettings& porous);
 
 /// Reads fabrics with their pins, placed and checked; `scene` gives materials and the cell.
 std::vector<FabricPiece> readFabrics(const Node& root, const Scene& scene);
@@ -17,11 +18,13 @@ struct ReadFabricShape {
     FabricGeometry geometry;
     std::array<double, 2> radius{};       ///< [cm]
     std::string text;                     ///< fields as a scene says them, in cgs, without material: "nodes: [9, 9], radius: 0.02"
+    Vec3 warp = Vec3::UnitX();            ///< direction of the warp of cloth
     std::vector<std::string> notes = {};  ///< "drop.yaml:14: …": what was mended in its file
 };
 
-/// @param kind  one of fabricShapeKinds()
-ReadFabricShape readFabricShape(const Node& node, const std::string& path, const std::string& kind);
+/// @param kind       one of fabricShapeKinds()
+/// @param thickness  of the material's cloth, for cloth that says no radius; 0: the material has none [cm]
+ReadFabricShape readFabricShape(const Node& node, const std::string& path, const std::string& kind, double thickness = 0.0);
 const std::vector<std::string>& fabricShapeKinds();
 
 /// Reads the pins of a piece, one map or a list of them. Corners and sides are those of the generator's own geometry;

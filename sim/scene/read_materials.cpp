@@ -30,7 +30,7 @@ void resolvePorous(const SectionReader& section, double poreRadius, double threa
     }
 }
 
-std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings& porous)
+std::vector<NamedMaterial> readMaterials(const Node& root, PorousSettings& porous)
 {
     std::vector<NamedMaterial> materials;
     const Node* section = root.find("materials");
@@ -42,8 +42,12 @@ std::vector<NamedMaterial> readMaterials(const Node& root, const PorousSettings&
         m.name = section->keys[i];
         requireName(m.name, node.location, "materials");
         m.material.volumeFraction = porous.volumeFraction;
-        SectionReader::read(&node, joinPath("materials", m.name), [&](auto& v) { visitFields(v, m.material); });
+        const std::string path = joinPath("materials", m.name);
+        SectionReader::read(&node, path, [&](auto& v) { visitFields(v, m.material); });
+        if (const FabricPreset* preset = fabricPresetOf(SectionReader(node, path))) m.fibreDiameter = preset->fibreDiameter;
     }
+    const auto first = std::ranges::find_if(materials, [](const NamedMaterial& m) { return m.fibreDiameter > 0.0; });
+    if (!root.find("porous") && first != materials.end()) porous.fibreDiameter = first->fibreDiameter;
     return materials;
 }
 

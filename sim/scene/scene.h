@@ -51,6 +51,7 @@ struct SourceSettings {
 struct NamedMaterial {
     std::string name;
     FabricMaterial material;
+    double fibreDiameter = 0.0;  ///< of its preset; 0 without one [cm]
 };
 
 /// What holds from a step on.

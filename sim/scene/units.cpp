@@ -31,7 +31,7 @@ struct QuantityInfo {
 
 const QuantityInfo& infoOf(Quantity quantity)
 {
-    static constexpr std::array<QuantityInfo, 15> kInfo = {{
+    static constexpr std::array<QuantityInfo, 17> kInfo = {{
         {"plain number", {}, "", "", 0},
         {"length", {1, 0, 0, 0}, "cm", "m", 2},
         {"time", {0, 0, 1, 0}, "s", "s", 0},
@@ -42,6 +42,8 @@ const QuantityInfo& infoOf(Quantity quantity)
         {"pressure", {-1, 1, -2, 0}, "dyn/cm^2", "Pa", 1},
         {"viscosity", {-1, 1, -1, 0}, "P", "Pa s", 1},
         {"surface tension", {0, 1, -2, 0}, "dyn/cm", "N/m", 3},
+        {"stiffness", {0, 1, -2, 0}, "dyn/cm", "N/m", 3},
+        {"bending stiffness", {2, 1, -2, 0}, "dyn cm", "N m", 7},
         {"volume", {3, 0, 0, 0}, "cm^3", "m^3", 6},
         {"frequency", {0, 0, -1, 0}, "1/s", "1/s", 0},
         {"angle", {0, 0, 0, 1}, "deg", "deg", 0},

@@ -18,6 +18,8 @@ enum class Quantity {
     Pressure,
     Viscosity,
     SurfaceTension,
+    Stiffness,         ///< force per width and strain
+    BendingStiffness,  ///< moment per width and curvature
     Volume,
     Frequency,
     Angle,            ///< stored in radians, written in degrees

@@ -24,6 +24,14 @@ struct FabricMaterial {
     double frictionAngle = 30.0 * kPi / 180.0;  ///< tan of it is Coulomb's coefficient [rad]
     double volumeFraction = 1.0;                ///< φ: fibres per envelope volume [0..1]
     double sectionRotation = 0.0;               ///< angle of an elliptic section's axes against the initial frames [rad]
+    double thickness = 0.0;                     ///< thickness of cloth whose piece says none; 0: unknown [cm]
+
+    // Of cloth that stretches and bends otherwise along its warp than along its weft (fabric/shells/README.md, Warp and weft).
+    std::array<double, 2> stretchStiffness{};  ///< force per width and strain, pulled along warp and weft; 0: as young has it [dyn/cm]
+    double shearStiffness = 0.0;               ///< shear force per width and angle; 0: √(warp · weft) / 2(1 + ν) [dyn/cm]
+    std::array<double, 2> bendingStiffness{};  ///< moment per width and curvature, warp and weft bent; 0: as young has it [dyn cm]
+
+    bool hasWarp() const { return stretchStiffness[0] > 0.0 || bendingStiffness[0] > 0.0; }
 
     double packing() const { return volumeFraction * volumeFraction; }   ///< χ [-]
     double envelopeDensity() const { return density * volumeFraction; }  ///< mass of dry fabric per envelope volume [g/cm^3]
@@ -49,6 +57,7 @@ struct FabricPiece {
     std::string materialName;
     FabricMaterial material;
     std::array<double, 2> radius{};         ///< half axes of a yarn's section, along m1 and m2; cloth is as thick as their sum [cm]
+    Vec3 warp = Vec3::UnitX();              ///< direction of the warp of cloth; its weft lies across
     std::vector<Vec3> points;               ///< [cm]
     std::vector<std::vector<int>> strands;  ///< points in order, at least 2 each
     std::vector<Vec3i> faces;               ///< consistently oriented

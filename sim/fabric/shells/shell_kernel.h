@@ -25,8 +25,9 @@ using ShellCorners = std::array<Vec3T<T>, kShellVertices>;
 template <class T>
 struct ShellRest {
     std::array<T, 3> ru, rw;       ///< derivatives of the shape functions by the two rest coordinates [1/cm]
-    T area;                        ///< χ times the rest area [cm^2]
-    T young, poisson;              ///< E t [dyn/cm] and ν [-]
+    T area;                        ///< factor on energies per area: the rest area, times χ where young says how stiff cloth is [cm^2]
+    T young, poisson;              ///< E t [dyn/cm] and ν [-], of neo-Hookean membranes
+    std::array<T, 4> stretching;   ///< C11 C22 C66 C12 of St Venant-Kirchhoff membranes, by the rest coordinates [dyn/cm]
     std::array<T, 3> hasNeighbor;  ///< 1, or 0 on the boundary [-]
     std::array<T, 3> angle;        ///< dihedral angles at rest [rad]
     std::array<T, 6> bending;      ///< Q00 Q11 Q22 Q01 Q02 Q12: χ energy is ½ θᵀQθ [dyn cm]
@@ -62,12 +63,12 @@ struct MembraneStress {
 template <class T>
 MembraneStress<T> stVenantKirchhoff(const ShellRest<T>& rest, const MembraneStrain<T>& s)
 {
-    const T one = constant<T>(1.0), half = constant<T>(0.5), zero = constant<T>(0.0);
-    const T c0 = rest.young / (one - rest.poisson * rest.poisson), c1 = rest.poisson * c0, c2 = half * (one - rest.poisson) * c0;
+    const T half = constant<T>(0.5), zero = constant<T>(0.0);
+    const auto& [c11, c22, c66, c12] = rest.stretching;
     MembraneStress<T> m;
-    m.stress = {c0 * s.green[0] + c1 * s.green[1], c1 * s.green[0] + c0 * s.green[1], c2 * s.green[2]};
+    m.stress = {c11 * s.green[0] + c12 * s.green[1], c12 * s.green[0] + c22 * s.green[1], c66 * s.green[2]};
     m.energy = half * (m.stress[0] * s.green[0] + m.stress[1] * s.green[1] + m.stress[2] * s.green[2]);
-    m.tangent = {c0, c0, c2, c1, zero, zero};
+    m.tangent = {c11, c22, c66, c12, zero, zero};
     return m;
 }
 

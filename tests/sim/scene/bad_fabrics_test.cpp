@@ -46,6 +46,11 @@ const BadFabric kBadFabrics[] = {
      "bad.yaml:3: fabrics.0.strand.radius is missing; it is half the thickness of a yarn or of the cloth, like radius: "
      "0.02; "
      "[a, b] is an elliptic section"},
+    {"NoThickness", "fabrics: [{cloth_grid: {material: wool, nodes: [3, 3], spacing: 0.1}}]\n",
+     "bad.yaml:3: fabrics.0.cloth_grid.radius is missing; it is half the thickness of the cloth, like radius: 0.02, where its material has no "
+     "thickness"},
+    {"WarpAcross", "fabrics: [{cloth_grid: {material: wool, nodes: [3, 3], spacing: 0.1, radius: 0.1, warp: [0, 0, 0]}}]\n",
+     "bad.yaml:3: fabrics.0.cloth_grid.warp: must be a direction, like [0, 1, 0]"},
     {"RadiusNegative", "fabrics: [{strand: {material: wool, from: [0, 0, 0], to: [1, 0, 0], segments: 2, radius: [0.1, -1]}}]\n",
      "bad.yaml:3: fabrics.0.strand.radius: \"-1\" is out of range; must be above 0, at most 10000000 cm"},
     {"OneNode", "fabrics: [{cloth_grid: {material: wool, nodes: [1, 5], spacing: 0.1, radius: 0.1}}]\n",
@@ -149,10 +154,24 @@ const BadFabric kBadMaterials[] = {
     {"FractionAboveOne", "materials: {wool: {young: 1, volume_fraction: 1.2}}\n",
      "bad.yaml:2: materials.wool.volume_fraction: \"1.2\" is out of range; must be above 0, at most 1"},
     {"UnknownKey", "materials: {wool: {young: 1, friction: 30}}\n",
-     "bad.yaml:2: unknown key \"friction\" in materials.wool (there is young, poisson, density, damping_viscosity, "
+     "bad.yaml:2: unknown key \"friction\" in materials.wool (there is preset, young, poisson, density, damping_viscosity, "
      "damp_bending, damp_stretching, stretch_factor, contact_stiffness, pin_stiffness, friction_angle, "
      "volume_fraction, "
-     "section_rotation)"},
+     "section_rotation, thickness, stretch_stiffness, shear_stiffness, bending_stiffness)"},
+    {"UnknownPreset", "materials: {jeans: {preset: denm}}\n", "bad.yaml:2: materials.jeans.preset: \"denm\" is unknown (did you mean \"denim\"?)"},
+    {"WarpWithoutWeft", "materials: {wool: {young: 1, bending_stiffness: [1, 0]}}\n",
+     "bad.yaml:2: materials.wool.bending_stiffness: one of warp and weft is 0; give both, or 0 for both"},
+    {"ShearWithoutStretch", "materials: {wool: {young: 1, shear_stiffness: 1}}\n",
+     "bad.yaml:2: materials.wool.shear_stiffness: needs stretch_stiffness"},
+    {"WarpAndNeoHookean", "materials: {wool: {preset: wool}}\nfabric: {membrane: neo_hookean}\n",
+     "bad.yaml:3: fabric.membrane: is alike in all directions, and materials.wool has stretch_stiffness along warp and weft; choose stvk"},
+    {"WarpAndHinges", "materials: {wool: {young: 1, bending_stiffness: [1, 2]}}\nfabric: {bending: hinge}\n",
+     "bad.yaml:3: fabric.bending: is alike in all directions, and materials.wool has bending_stiffness along warp and weft; choose shape_operator"},
+    {"FibresOfTwoKinds",
+     "materials: {a: {preset: silk}, b: {preset: wool}}\nfabrics: [{cloth_grid: {material: a, nodes: [3, 3], size: 1}}]\n"
+     "liquid: {sources: [{shape: {ball: {center: [0, 2, 0], radius: 1}}}]}\n",
+     "bad.yaml:2: materials: fibres of a are 0.0012 cm thick and those of b 0.0021 cm, and liquid flows around one kind; say porous: "
+     "{fibre_diameter: 0.0012, volume_fraction: 0.3}"},
     {"NameWithDot", "materials: {a b: {young: 1}}\n", "bad.yaml:2: materials: \"a b\" may have letters, digits, _ and - only"},
 };
 

@@ -17,13 +17,15 @@ struct CrumpledSheet {
     std::vector<Vec3> x;
     std::vector<int> slot;
 
-    explicit CrumpledSheet(unsigned seed, double amount = 0.15, Vec2i nodes = {4, 3})
+    explicit CrumpledSheet(unsigned seed, const FabricMaterial& material = testing::wool(), double amount = 0.15, Vec2i nodes = {4, 3})
     {
         Noise noise(seed);
         ClothGrid grid{.nodes = nodes, .spacing = {0.5, 0.4}};
         FabricGeometry geometry = clothGrid(grid);
         for (Vec3& p : geometry.points) p += 0.05 * noise.vector();
-        fabric = testing::fabricOf(testing::pieceOf(geometry, testing::wool(), {0.05, 0.05}));
+        FabricPiece piece = testing::pieceOf(geometry, material, {0.05, 0.05});
+        piece.warp = Vec3(1.0, 0.2, 0.7).normalized();
+        fabric = testing::fabricOf(piece);
         x = fabric.rest;
         for (Vec3& p : x) p += amount * noise.vector();
         for (std::size_t v = 0; v < x.size(); ++v) slot.push_back(static_cast<int>(v / kLanes * 3 * kLanes + v % kLanes));
@@ -46,13 +48,14 @@ double totalEnergy(const Shells& shells, std::span<const Vec3> x)
 }
 
 struct Model {
-    const char* name;
-    FabricSettings settings;
+    const char* name = "";
+    FabricSettings settings = {};
+    FabricMaterial material = testing::wool();
 };
 
 std::vector<Model> allModels()
 {
-    std::vector<Model> models(5);
+    std::vector<Model> models(6);
     models[0].name = "stvk, shape operator";
     models[1].name = "neo-hookean, hinge angle";
     models[1].settings.membrane = MembraneModel::NeoHookean;
@@ -65,6 +68,10 @@ std::vector<Model> allModels()
     models[3].settings.hingeMeasure = HingeMeasure::Tan;
     models[4].name = "neo-hookean, shape operator";
     models[4].settings.membrane = MembraneModel::NeoHookean;
+    models[5].name = "warp and weft";
+    models[5].material.stretchStiffness = {8.0e5, 2.0e5};
+    models[5].material.shearStiffness = 3.0e4;
+    models[5].material.bendingStiffness = {900.0, 250.0};
     return models;
 }
 
@@ -72,7 +79,7 @@ TEST(Shells, GradientMatchesFiniteDifferences)
 {
     for (const Model& model : allModels())
         for (unsigned seed = 0; seed < 5; ++seed) {
-            CrumpledSheet sheet(seed);
+            CrumpledSheet sheet(seed, model.material);
             Shells shells(sheet.fabric, model.settings);
             const std::vector<double> gradient = sheet.gradient(shells, sheet.x);
             double largest = 0.0, error = 0.0;
@@ -105,7 +112,7 @@ Eigen::MatrixXd denseOf(const BlockMatrix& matrix)
 TEST(Shells, HessianIsSymmetricPositiveAndExactAtRest)
 {
     for (const Model& model : allModels()) {
-        CrumpledSheet sheet(11);
+        CrumpledSheet sheet(11, model.material);
         Shells shells(sheet.fabric, model.settings);
         BlockMatrix matrix = shells.matrix();
         matrix.clear();
@@ -134,7 +141,7 @@ TEST(Shells, HessianIsSymmetricPositiveAndExactAtRest)
 TEST(Shells, EnergyIsInvariantAndForcesBalance)
 {
     for (const Model& model : allModels()) {
-        CrumpledSheet sheet(13);
+        CrumpledSheet sheet(13, model.material);
         Shells shells(sheet.fabric, model.settings);
         const double energy = totalEnergy(shells, sheet.x);
         std::vector<Vec3> moved = sheet.x;
@@ -185,7 +192,7 @@ TEST(Shells, ShapeOperatorHasThePlatesStiffness)
 /// one face.
 TEST(Shells, HessianOfHingesTiesFewerVertices)
 {
-    const CrumpledSheet sheet(5, 0.1, {9, 9});
+    const CrumpledSheet sheet(5, testing::wool(), 0.1, {9, 9});
     FabricSettings settings;
     constexpr int kMiddle = 4 * 9 + 4;
     const auto blocksInRow = [&](BendingModel bending) {
