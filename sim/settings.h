@@ -138,8 +138,10 @@ struct CaptureSettings {
 
 /// How liquid moves in fabric.
 struct WickingSettings {
-    double rateScale = 1.0;  ///< Factor on the flow; 0 = liquid stays where it was taken up [-]
-    bool pressure = true;    ///< The pressure of the liquid around drives it too
+    double rateScale = 1.0;             ///< Factor on the flow; 0 = liquid stays where it was taken up [-]
+    double suctionExponent = 1.0;       ///< a of the suction P_c (1 − S^a) of pores that are full to S; 1 = linear [-]
+    double permeabilityExponent = 1.0;  ///< b of the permeability S^b of such pores, relative to that of full ones [-]
+    bool pressure = true;               ///< The pressure of the liquid around drives it too
 };
 
 /// How wet fabric sticks, with solver vertex.

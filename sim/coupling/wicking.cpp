@@ -59,6 +59,7 @@ Wicking::Wicking(const Fabric& fabric, const PorousElements& elements, const Set
     : fabric_(fabric),
       elements_(elements),
       settings_(settings.coupling.wicking),
+      unsaturated_(settings_),
       density_(settings.liquid.density),
       capacity_(poreCapacity(fabric, density_)),
       leastSubsteps_(settings.solver.wickingSubsteps),
@@ -67,7 +68,7 @@ Wicking::Wicking(const Fabric& fabric, const PorousElements& elements, const Set
       flow_(elements.size()),
       carried_(elements.size())
 {
-    for (std::vector<double>* u : {&head_, &outflowLimiter_, &absorbed_}) u->resize(fabric.vertexCount());
+    for (std::vector<double>* u : {&saturation_, &moving_, &head_, &outflowLimiter_, &absorbed_}) u->resize(fabric.vertexCount());
     isWetElement_.resize(elements.size());
     isActive_.resize(fabric.vertexCount());
     for (std::vector<Vec3>* u : {&acceleration_, &velocity_, &pinImpulse_}) u->resize(fabric.vertexCount());
@@ -83,8 +84,12 @@ Wicking::Wicking(const Fabric& fabric, const PorousElements& elements, const Set
         const int m = fabric.vertexMaterial[v[0]];
         const double drag = laws_[m].drag(along_[m], fabric.materials[m].volumeFraction, 0.0);
         if (!(drag > 0.0 && settings_.rateScale > 0.0)) continue;
-        const double diffusivity = settings_.rateScale * (1.0 - fabric.materials[m].volumeFraction) * 2.0 * suction_[m] / drag;
-        if (diffusivity > 0.0) longest_ = std::min(longest_, kStable * std::pow(leastExtent(fabric, v), 2) / (2.0 * diffusivity));
+        const double extent = leastExtent(fabric, v), pores = settings_.rateScale * (1.0 - fabric.materials[m].volumeFraction);
+        const double diffusivity = pores * 2.0 * suction_[m] / drag * unsaturated_.steepest();
+        if (diffusivity > 0.0) longest_ = std::min(longest_, kStable * std::pow(extent, 2) / (2.0 * diffusivity));
+        if (unsaturated_.isLinear()) continue;
+        const double fall = pores * density_ * settings.gravity.norm() / drag * unsaturated_.steepestPermeability();  // [cm/s]
+        if (fall > 0.0) longest_ = std::min(longest_, kStable * extent / fall);
     }
 }
 
@@ -124,14 +129,33 @@ double Wicking::pressureAt(const Vec3& x, const BlockGrid& grid, const BlockArra
     return sum;
 }
 
-/// What drives liquid towards a vertex: suction of its empty pores, less the pressure around it.
+/// How full vertices are, what drives liquid towards each, suction of its empty pores less the pressure around it, and what moves from it.
 void Wicking::findHeads(const BlockGrid& grid, const BlockArray<double>& pressure, const FabricState& state)
 {
     parallelFor(head_.size(), kGrain, [&](std::size_t v) {
         if (!isActive_[v]) return;
-        const double filling = capacity_[v] > 0.0 ? std::clamp(state.absorbed[v] / capacity_[v], 0.0, 1.0) : 1.0;
-        head_[v] = 2.0 * suction_[fabric_.vertexMaterial[v]] * (1.0 - filling) - pressureAt(state.x[v], grid, pressure);
+        saturation_[v] = capacity_[v] > 0.0 ? std::clamp(state.absorbed[v] / capacity_[v], 0.0, 1.0) : 1.0;
+        head_[v] = 2.0 * suction_[fabric_.vertexMaterial[v]] * unsaturated_.suction(saturation_[v]) - pressureAt(state.x[v], grid, pressure);
+        moving_[v] = unsaturated_.isLinear() ? state.absorbed[v] / fabric_.volume[v]
+                                             : capacity_[v] / fabric_.volume[v] * unsaturated_.permeability(saturation_[v]);
     });
+}
+
+/// Filling that moves in an element: mean of its corners, by the law between each two of them where that is not linear [g/cm^3].
+double Wicking::fillingAmong(const std::array<int, 3>& v, int corners) const
+{
+    double sum = 0.0;
+    if (unsaturated_.isLinear()) {
+        for (int c = 0; c < corners; ++c) sum += moving_[v[c]] / corners;
+        return sum;
+    }
+    const int pairs = corners == 2 ? 1 : 3;
+    for (int c = 0; c < pairs; ++c) {
+        const int one = v[c], other = v[(c + 1) % corners];
+        const double full = 0.5 * (capacity_[one] / fabric_.volume[one] + capacity_[other] / fabric_.volume[other]);
+        sum += full * unsaturated_.meanPermeability(saturation_[one], saturation_[other]) / pairs;
+    }
+    return sum;
 }
 
 /// Outflow at the corners of each element.
@@ -142,8 +166,7 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
         const int corners = elements_.corners(e);
         ShapeGradients gradients;
         if (!isWetElement_[e] || !findShapeGradients(state.x, v, gradients)) return;
-        filling_[e] = 0.0;
-        for (int c = 0; c < corners; ++c) filling_[e] += state.absorbed[v[c]] / fabric_.volume[v[c]] / corners;
+        filling_[e] = fillingAmong(v, corners);
         Vec3 body = density_ * gravity, force = Vec3::Zero();
         for (int c = 0; c < corners; ++c) {
             body -= density_ / corners * acceleration_[v[c]];
@@ -160,12 +183,6 @@ void Wicking::findFlow(const Vec3& gravity, const FabricState& state)
     });
 }
 
-/// Filling of what flows out of a corner [g/cm^3]: the element's, so that speeds depend on no direction of the mesh, but no more than there is.
-double Wicking::fillingOf(std::size_t e, int v, const FabricState& state) const
-{
-    return std::min(filling_[e], state.absorbed[v] / fabric_.volume[v]);
-}
-
 /// No vertex gives more than it has.
 void Wicking::limitDonors(double h, const FabricState& state)
 {
@@ -175,7 +192,7 @@ void Wicking::limitDonors(double h, const FabricState& state)
         for (int i = elements_.begin[v]; i < elements_.begin[v + 1]; ++i) {
             const int e = elements_.at[i];
             for (int c = 0; c < elements_.corners(e); ++c)
-                if (elements_.vertices[e][c] == static_cast<int>(v)) out += h * std::max(rate_[e][c], 0.0) * fillingOf(e, static_cast<int>(v), state);
+                if (elements_.vertices[e][c] == static_cast<int>(v)) out += h * std::max(rate_[e][c], 0.0) * fillingOf(e, static_cast<int>(v));
         }
         outflowLimiter_[v] = out > state.absorbed[v] ? state.absorbed[v] / out : 1.0;
     });
@@ -185,7 +202,7 @@ void Wicking::transport(double h, FabricState& state)
 {
     const auto leaves = [&](std::size_t e, int c) {
         const int v = elements_.vertices[e][c];
-        return outflowLimiter_[v] * h * std::max(rate_[e][c], 0.0) * fillingOf(e, v, state);
+        return outflowLimiter_[v] * h * std::max(rate_[e][c], 0.0) * fillingOf(e, v);
     };
     parallelFor(elements_.size(), kGrain, [&](std::size_t e) {
         if (!isWetElement_[e]) return;

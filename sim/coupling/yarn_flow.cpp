@@ -10,7 +10,7 @@ namespace sim {
 namespace {
 
 constexpr double kCreeping = 0.1;     ///< Reynolds number below which drag is linear [-]
-constexpr double kReach = 4.0;        ///< reach of a yarn's view of its neighbours [diameters]
+constexpr double kReach = 12.0;       ///< reach of a yarn's view of its neighbours [diameters]
 constexpr double kMostCovered = 0.9;  ///< share of a view that can be covered: yarns that touch still let liquid through where they cross [-]
 
 /// Length of the part of a segment that lies in a ball [cm].
@@ -85,7 +85,7 @@ std::vector<double> constrictions(const Fabric& fabric, const std::vector<double
                 }
         const double left = std::max(1.0 - 0.5 * shadow / (kPi * radius * radius), 0.0);
         const double open = 1.0 - std::min(1.0 - left * left, kMostCovered);
-        out[v] = 1.0 / (open * open);
+        out[v] = (1.0 + std::sqrt(open)) * (1.0 + open) / (4.0 * open * open);
     }
     return out;
 }

@@ -47,6 +47,10 @@ template <class V>
 void visitFields(V& v, WickingSettings& w)
 {
     v.number("rate_scale", w.rateScale, Quantity::None, Range::atLeast(0.0), "Factor on the flow of liquid inside fabric; 0 = it stays");
+    v.number("suction_exponent", w.suctionExponent, Quantity::None, Range::between(0.1, 100.0),
+             "a of the suction P_c (1 - S^a) of pores that are full to S; 1 = linear, 10 and more: fronts are sharp");
+    v.number("permeability_exponent", w.permeabilityExponent, Quantity::None, Range::between(1.0, 100.0),
+             "b of the permeability S^b of such pores, relative to that of full ones");
     v.flag("pressure", w.pressure, "The pressure of the liquid around drives that flow too");
 }
 

@@ -35,7 +35,8 @@ void addFabricReaders(const Scene& scene, std::vector<Reader>& readers)
     readers.push_back({"coupling.drag_exponent", c.drag != DragLaw::Linear, "coupling.drag nonlinear"});
     readers.push_back({"coupling.capillary_reaction", c.capillary, "coupling.capillary true"});
     readers.push_back({"coupling.capture.published_rate_factor", c.capture.rate > 0.0, "a coupling.capture.rate above 0"});
-    readers.push_back({"coupling.wicking.pressure", c.wicking.rateScale > 0.0, "a coupling.wicking.rate_scale above 0"});
+    for (std::string_view path : {"coupling.wicking.suction_exponent", "coupling.wicking.permeability_exponent", "coupling.wicking.pressure"})
+        readers.push_back({path, c.wicking.rateScale > 0.0, "a coupling.wicking.rate_scale above 0"});
     for (std::string_view path : {"coupling.cohesion.fabric", "coupling.cohesion.obstacle"})
         readers.push_back({path, c.cohesion.strength > 0.0, "a coupling.cohesion.strength above 0"});
 }

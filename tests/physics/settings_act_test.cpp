@@ -85,6 +85,8 @@ const std::map<std::string, Ground> kGrounds = {
     {"transfer.damp_modes", {kPool, {kDamped}}},
     {"coupling.capture.published_rate_factor", {kWet, {"coupling.capture.law=published"}, "1"}},
     {"coupling.wicking.rate_scale", {kWet, {}, "0.5"}},
+    {"coupling.wicking.suction_exponent", {kWet, {}, "3"}},
+    {"coupling.wicking.permeability_exponent", {kWet, {}, "3"}},
     {"coupling.cohesion.strength", {kWet, {}, "0.01"}},
     {"coupling.cohesion.fabric", {kWet, {"coupling.cohesion.strength=0.01"}}},
     {"coupling.cohesion.obstacle", {kWet, {"coupling.cohesion.strength=0.01"}}},

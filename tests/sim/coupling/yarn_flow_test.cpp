@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace sim::test {
 namespace {
 
@@ -50,6 +52,29 @@ TEST(Narrowings, GrowWithWhatNeighboursCover)
     EXPECT_LT(wide, 1.0 / (0.67 * 0.67));
     EXPECT_GT(dense, 1.5 * wide);
     EXPECT_NEAR(middleOf(0.15, 120), dense, 0.1 * dense);
+}
+
+/// A square weave of yarns s apart has the head of measured screens within a fifth, C_D (1 - α²)/(2 α²) with the open part α = (1 - d/s)² (Blevins 1984
+/// with 2 β for C_D): twice d/s of yarns per area, each with C_D times the constriction.
+TEST(Narrowings, OfWeavesAreThoseOfScreens)
+{
+    constexpr double kDiameter = 0.05;
+    for (const double spacing : {3.0, 5.0, 10.0}) {
+        constexpr int kHalf = 15;
+        const double pitch = spacing * kDiameter, end = kHalf * pitch;
+        std::vector<FabricPiece> pieces;
+        for (int n = -kHalf; n <= kHalf; ++n) {
+            pieces.push_back(testing::pieceOf(strand(Vec3(n * pitch, 0.0, -end), Vec3(n * pitch, 0.0, end), 2 * kHalf), testing::wool(),
+                                              {0.5 * kDiameter, 0.5 * kDiameter}));
+            pieces.push_back(testing::pieceOf(strand(Vec3(-end, 0.0, n * pitch), Vec3(end, 0.0, n * pitch), 2 * kHalf), testing::wool(),
+                                              {0.5 * kDiameter, 0.5 * kDiameter}));
+        }
+        const Fabric fabric = assembleFabric(pieces);
+        const std::vector<double> all = constrictions(fabric, yarnDiameters(fabric));
+        const auto middle = std::ranges::min_element(fabric.rest, {}, [](const Vec3& x) { return x.norm(); });
+        const double alpha = std::pow(1.0 - 1.0 / spacing, 2), screen = (1.0 - alpha * alpha) / (2.0 * alpha * alpha);
+        EXPECT_NEAR(2.0 / spacing * all[middle - fabric.rest.begin()], screen, 0.2 * screen) << spacing;
+    }
 }
 
 }  // namespace
