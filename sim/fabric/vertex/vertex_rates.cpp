@@ -108,7 +108,12 @@ void VertexSolver::findAbrupt(double h, FabricState& state)
 void VertexSolver::findRates(double h, FabricState& state)
 {
     if (isSecondOrder_) findSecondOrderRates(h, state);
-    else findMeanRates(h, state);
+    else {
+        findMeanRates(h, state);
+        FabricState::VertexSolverPart& now = state.vertexSolver;  // a next step of second order is a first one
+        now.force.clear(), now.meanForce.clear(), now.torque.clear(), now.meanTorque.clear(), now.meanContactForce.clear();
+        now.lastStep = 0.0;
+    }
 }
 
 /// Rates of backward Euler, and of a state to which no forces led: those of the way.

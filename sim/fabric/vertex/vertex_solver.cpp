@@ -31,7 +31,6 @@ VertexSolver::VertexSolver(const Fabric& fabric, const FabricSettings& settings,
                            std::optional<Cohesion> cohesion)
     : fabric_(fabric),
       settings_(settings),
-      isSecondOrder_(settings.integrator == FabricTimeIntegrator::SecondOrder),
       system_(fabric, settings),
       cohesion_(std::move(cohesion)),
       groups_(fabric),
@@ -144,6 +143,7 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     start_ = state;
     startTime_ = t;
     startEnergies_ = energies(start_, gravity_);
+    isSecondOrder_ = settings_.integrator == FabricTimeIntegrator::SecondOrder && state.vertexSolver.owed <= referenceEnergy(0.0, h);
     start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
     startIsChecked_ = false;
     pinForce_.clear();

@@ -163,7 +163,7 @@ class VertexSolver final : public FabricIntegrator {
 
     const Fabric& fabric_;
     FabricSettings settings_;
-    bool isSecondOrder_;  ///< fabric.integrator
+    bool isSecondOrder_ = false;  ///< fabric.integrator, but for steps of fabric that owes energy: backward Euler takes some
     VertexSystem system_;
     std::optional<ElasticStep> elasticStep_;  ///< rods and shells in the attempt under way
     std::optional<Cohesion> cohesion_;
