@@ -110,7 +110,7 @@ struct FabricState {
         std::vector<Vec3> meanContactForce;      ///< part of meanForce by all that touches the vertex [dyn]
         std::vector<double> torque, meanTorque;  ///< torque on each yarn edge's twist at the last step's end, and its recursive mean [dyn cm]
         double lastStep = 0.0;                   ///< length of the last step or part of one [s]
-        double recoverable = 0.0;                ///< energy that its last steps took, half forgotten in each, and may yet give back [erg]
+        double recoverable = 0.0;                ///< energy that its last steps took, a tenth forgotten in each, and may yet give back [erg]
     };
     /// Part of the state that solver grid has; empty until its first step.
     struct GridSolverPart {

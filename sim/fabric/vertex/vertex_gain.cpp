@@ -14,6 +14,8 @@ namespace {
 
 /// Most that the scheme of second order gives back in a step, of the energy of the motion: 2.6 % where a step is a third of a period [-]
 constexpr double kMostRecovered = 0.03;
+constexpr double kRemembered =
+    0.9;  ///< share of what it took before that the scheme may still give back, per step: in a swing of 20 it takes for five [-]
 
 }  // namespace
 
@@ -87,7 +89,7 @@ void VertexSolver::keepRecoverable(FabricState& state) const
 {
     const bool isAbrupt = std::ranges::any_of(acting_, [](const ActingContact& contact) { return contact.abrupt > 0.0; });
     const double change = isAbrupt ? std::max(made_, 0.0) : made_;
-    state.vertexSolver.recoverable = 0.5 * std::max(0.0, start_.vertexSolver.recoverable - change);
+    state.vertexSolver.recoverable = kRemembered * std::max(0.0, start_.vertexSolver.recoverable - change);
 }
 
 /// What the scheme of second order may give back of what it took in the steps before [erg].
@@ -119,7 +121,12 @@ void VertexSolver::removeSpuriousGain(const Part& part)
     const double h = part.h;
     FabricState& state = part.state;
     const double before = isSecondOrder_ ? start_.vertexSolver.owed : 0.0, back = recovered(state, groups_);
-    const auto due = [&] { return before + energies(state, gravity_).total() - allowedEnergy(h, state) - back - aheadOfWay(h, state, groups_); };
+    std::vector<Vec3> byLiquid(loads_ ? state.v.size() : 0);  // the same however much of the way is made [g cm/s]
+    for (std::size_t v = 0; v < byLiquid.size(); ++v) byLiquid[v] = h / wholeStep_ * (loads_->impulse[v] - loads_->drag[v].cwiseProduct(state.v[v]));
+    const auto due = [&] {
+        const double given = parallelSum(byLiquid.size(), [&](std::size_t v) { return byLiquid[v].dot(workingVelocity(v, state)); });
+        return before + energies(state, gravity_).total() - startEnergies_.total() - given - back - aheadOfWay(h, state, groups_);
+    };
     const auto canPay = [&] { return due() <= ownKinetic(fabric_, groups_, mass_, state) + bearableGain(h); };
     const auto pay = [&] {
         slowDown(due(), fabric_, groups_, mass_, state);
@@ -140,6 +147,7 @@ void VertexSolver::removeSpuriousGain(const Part& part)
     }
     if (!canPay()) {  // what is in the way of the drift deforms it: all stays where it was, and keeps the momentum of its drift
         std::ranges::fill(displacement.drift, Vec3::Zero());
+        std::ranges::fill(displacement.driftVelocity, Vec3::Zero());
         applyFraction(part, displacement, 0.0);
         const std::vector<Vec3> drift = groups_.drifts(mass_, start_.v);
         for (std::size_t v = 0; v < state.v.size(); ++v)

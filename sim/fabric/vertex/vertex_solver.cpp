@@ -23,7 +23,9 @@ constexpr double kFractionTwice = 0.95;  ///< accepted part of the moves below w
 constexpr double kFractionOnce = 0.7;    ///< accepted part of the moves below which a step is halved at once [-]
 constexpr int kDrivenHalvings = 2;       ///< halvings of a step in which something drives the fabric, that may be made at least
 constexpr int kMaxListBuilds = 25;       ///< builds of the candidate list in an attempt at most; more ask for halves
-constexpr double kMuchGain = 0.1;        ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
+constexpr double kOwedInSecondOrder =
+    1.0e-3;  ///< debt with which fabric goes on by the scheme of second order, relative to the largest kinetic energy: more is of what drives it [-]
+constexpr double kMuchGain = 0.1;  ///< energy from nothing, relative to that of the motion: more, after all iterations, asks for halves [-]
 
 }  // namespace
 
@@ -143,8 +145,9 @@ bool VertexSolver::beginAttempt(const Part& part, bool isLast)
     start_ = state;
     startTime_ = t;
     startEnergies_ = energies(start_, gravity_);
-    isSecondOrder_ = settings_.integrator == FabricTimeIntegrator::SecondOrder && state.vertexSolver.owed <= referenceEnergy(0.0, h);
     start_.mostKinetic = state.mostKinetic = std::max(start_.mostKinetic, startEnergies_.kinetic);
+    isSecondOrder_ = settings_.integrator == FabricTimeIntegrator::SecondOrder &&
+                     state.vertexSolver.owed <= std::max(referenceEnergy(0.0, h), kOwedInSecondOrder * state.mostKinetic);
     startIsChecked_ = false;
     pinForce_.clear();
     undetectedAtStart_ = 0.0;
