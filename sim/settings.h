@@ -99,7 +99,7 @@ enum class FabricTimeIntegrator { SecondOrder, BackwardEuler };
 /// How fabric is solved for (fabric/vertex/README.md, The step in vertices); what it is made of stands in FabricMaterial (fabric/pieces/piece.h).
 struct FabricSettings {
     FabricSolver solver = FabricSolver::Vertex;                             ///< Off: pins follow their motions, all else stays
-    FabricTimeIntegrator integrator = FabricTimeIntegrator::SecondOrder;  ///< vertex only
+    FabricTimeIntegrator integrator = FabricTimeIntegrator::BackwardEuler;  ///< vertex only
     MembraneModel membrane = MembraneModel::StVk;
     BendingModel bending = BendingModel::ShapeOperator;
     double hingeConstant = 1.0;  ///< c (fabric/shells/README.md, Hinges), bending hinge only; the published code has 3 [-]

@@ -59,16 +59,16 @@ void strike(const Fabric& fabric, double flight, Noise& noise, FabricState& stat
     }
 }
 
-/// No step of a run, by either solver, leaves more energy of its own than it began with.
+/// No step of a run, by either solver, leaves more energy of its own than it began with; by the scheme of second order than the run began with.
 template <class Run>
-void expectNoGain(Run& run, int steps)
+void expectNoGain(Run& run, int steps, bool isSecondOrder = false)
 {
     double before = ownEnergy(run.fabric, run.state, run.energies());
     for (int step = 0; step < steps; ++step) {
         run.step(kStruckStep);
         const double now = ownEnergy(run.fabric, run.state, run.energies());
         EXPECT_LT(now, (1.0 + kFelt) * before + kRounding) << "step " << step;
-        before = now;
+        before = isSecondOrder ? std::max(before, now) : now;
     }
 }
 
@@ -81,11 +81,12 @@ TEST(DriftingFabric, GainsNothingOfItsOwnInItsVertices)
             settings.contact = false;
             settings.newton = n % 3 == 0 ? 8 : 2;
             settings.maxHalvings = n % 4 == 3 ? 0 : 4;
+            settings.integrator = n % 2 == 0 ? FabricTimeIntegrator::SecondOrder : FabricTimeIntegrator::BackwardEuler;
             FabricRun run(looseBesideHeld(), settings);
             run.gravity = Vec3::Zero();
             strike(run.fabric, flight, noise, run.state);
             SCOPED_TRACE("flight " + std::to_string(flight) + ", state " + std::to_string(n));
-            expectNoGain(run, 8);
+            expectNoGain(run, 8, n % 2 == 0);
         }
     }
 }

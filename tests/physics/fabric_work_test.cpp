@@ -30,6 +30,7 @@ TEST(FabricWork, PinsAtRestGiveNothing)
         piece.pins = {pinned(n % 2 == 0 ? std::vector<int>{0} : std::vector<int>{0, 1}, true)};
         FabricSettings settings = withoutContact();
         settings.newton = 1 + n % 3;
+        settings.integrator = FabricTimeIntegrator::BackwardEuler;  // by that of second order clamps' twist is booked by the mean of two ends
         FabricRun run(piece, settings);
         for (Vec3& v : run.state.v) v = 10.0 * noise.vector();
         run.solver.bookEnergy();
@@ -37,6 +38,10 @@ TEST(FabricWork, PinsAtRestGiveNothing)
         EXPECT_GT(run.energies().twisting, 0.0);
     }
 }
+
+/// Rise beyond the work of pins that an integrator may have, relative to the largest kinetic energy: by that of second order their work is that of the
+/// mean of the forces at both ends of a step, in which stiff fabric changes them by more than a half (found: .025).
+double bookedTo(FabricTimeIntegrator integrator) { return integrator == FabricTimeIntegrator::SecondOrder ? 0.03 : 0.01; }
 
 /// The largest rise of energy beyond what pins gave, relative to the largest kinetic energy, in so many steps of h [s].
 double riseBeyondPins(FabricRun& run, int steps, double h)
@@ -67,8 +72,11 @@ TEST(FabricWork, PinsThatLeadGiveWhatIsGot)
         piece.pins = {pinned({0, 1}, n % 2 == 0, motion)};
         FabricSettings settings = withoutContact();
         settings.newton = 1;
-        FabricRun run(piece, settings);
-        EXPECT_LT(riseBeyondPins(run, 60, 1.0e-3), 0.01) << "yarn " << n;
+        for (const FabricTimeIntegrator integrator : {FabricTimeIntegrator::BackwardEuler, FabricTimeIntegrator::SecondOrder}) {
+            settings.integrator = integrator;
+            FabricRun run(piece, settings);
+            EXPECT_LT(riseBeyondPins(run, 60, 1.0e-3), bookedTo(integrator)) << "yarn " << n;
+        }
     }
 }
 
@@ -90,9 +98,12 @@ TEST(FabricWork, PinsThatBrakeTakeWhatIsLost)
         settings.tolerance = 0.0;  // that of scenes
         settings.newton = 1 + n % 3;
         settings.maxHalvings = 3;
-        FabricRun run(piece, settings);
-        run.gravity = Vec3(0.0, -90.0, 0.0);
-        EXPECT_LT(riseBeyondPins(run, 60, 2.4e-3), 0.01) << "cloth " << n;
+        for (const FabricTimeIntegrator integrator : {FabricTimeIntegrator::BackwardEuler, FabricTimeIntegrator::SecondOrder}) {
+            settings.integrator = integrator;
+            FabricRun run(piece, settings);
+            run.gravity = Vec3(0.0, -90.0, 0.0);
+            EXPECT_LT(riseBeyondPins(run, 60, 2.4e-3), bookedTo(integrator)) << "cloth " << n;
+        }
     }
 }
 

@@ -42,10 +42,10 @@ double VertexSolver::allowedEnergy(double h, const FabricState& state)
 }
 
 /// Work of gravity that groups which nothing holds have in their speed and not in their way, by the scheme of second order [erg]: their momentum is
-/// exact, and their way is h² (A − a)/8 longer than its mean speeds. This is to and fro, and not energy from nothing.
+/// exact, and their way is h² (A − a)/8 longer than its mean speeds. This is to and fro, and not energy from nothing. Only liquid changes A.
 double VertexSolver::aheadOfWay(double h, const FabricState& state, const FabricGroups& groups) const
 {
-    if (!isSecondOrder_ || !groups.anyFree()) return 0.0;
+    if (!isSecondOrder_ || !loads_ || !touching().empty() || !groups.anyFree()) return 0.0;
     return parallelSum(state.x.size(), [&](std::size_t v) {
         if (groups.freeGroupOf(groups.pieceOf(static_cast<int>(v))) < 0) return 0.0;
         return mass_[v] * gravity_.dot(0.5 * h * (start_.v[v] + state.v[v]) - (state.x[v] - start_.x[v]));
@@ -87,8 +87,8 @@ double VertexSolver::gainSoFar(const FabricState& state, const FabricGroups& gro
 /// What was lost where things met is lost for good.
 void VertexSolver::keepRecoverable(FabricState& state) const
 {
-    const bool isAbrupt = std::ranges::any_of(acting_, [](const ActingContact& contact) { return contact.abrupt > 0.0; });
-    const double change = isAbrupt ? std::max(made_, 0.0) : made_;
+    const bool isFree = acting_.empty() && !isDriven_;
+    const double change = isFree ? made_ : std::max(made_, 0.0);
     state.vertexSolver.recoverable = kRemembered * std::max(0.0, start_.vertexSolver.recoverable - change);
 }
 
@@ -130,7 +130,7 @@ void VertexSolver::removeSpuriousGain(const Part& part)
     const auto canPay = [&] { return due() <= ownKinetic(fabric_, groups_, mass_, state) + bearableGain(h); };
     const auto pay = [&] {
         slowDown(due(), fabric_, groups_, mass_, state);
-        if (isSecondOrder_) state.vertexSolver.owed = std::max(0.0, due());
+        if (isSecondOrder_) state.vertexSolver.owed = std::clamp(due(), 0.0, bearableGain(h));
     };
     if (canPay()) {
         pay();
