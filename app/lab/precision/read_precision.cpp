@@ -153,8 +153,10 @@ std::optional<Precision> readPrecision(const LoadedScene& setup)
     for (const Axis& axis : kAxes) precision.*axis.choices = choicesIn(section, axis.plural);
     readPublished(section.find("published"), precision);
     readQuick(section.find("quick"), precision);
-    if (const Node* at = section.find("converged"))
+    if (const Node* at = section.find("converged")) {
+        if (!at->isMap()) sim::fail(at->location, fmt::format("precision.converged: needs a map like {{time.cfl: 0.25}}, not {}", at->called()));
         for (const sim::Override& change : sim::overridesOf(*at, {})) precision.converged.push_back(change.text());
+    }
     if (precision.needsConverged() && precision.converged.empty())
         sim::fail(node->location,
                   "precision.converged is missing: what makes the run that the others are held against, like "

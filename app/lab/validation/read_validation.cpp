@@ -54,8 +54,11 @@ std::optional<Validation> readValidation(const LoadedScene& setup)
     validation.measures = std::make_shared<Measures>(setup.scene);
     const ReadingContext context = readContext(section, setup.scene, *validation.measures);
     validation.every = readInterval(section, context);
-    if (const Node* quick = section.find("quick"))
+    if (const Node* quick = section.find("quick")) {
+        if (!quick->isMap())
+            sim::fail(quick->location, fmt::format("validate.quick: needs a map like {{time.duration: 0.4}}, not {}", quick->called()));
         for (const sim::Override& change : sim::overridesOf(*quick, {})) validation.quick.push_back(change.text());
+    }
     section.required("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
     const Node& checks = *section.find("checks");
     if (!checks.isList() || checks.items.empty()) sim::fail(checks.location, "validate.checks: needs a list of at least one check");

@@ -219,6 +219,7 @@ TEST(Precision, MistakesNameTheirLine)
         {"  every: 0.01\n", "", "precision.every is missing"},
         {"energy: kinetic", "energy: kinetik", "flight.yaml:6: precision.energy: \"kinetik\""},
         {", expect: t", "", "precision.converged is missing"},
+        {"  decay: 4\n", "  converged: true\n", "flight.yaml:7: precision.converged: needs a map"},
         {"take: rms_error, expect: t", "take: mean", "flight.yaml:9: precision.errors.0: needs expect"},
         {"name: slow", "nome: slow", "flight.yaml:10: precision.methods.name is missing"},
         {"methods: [fast]", "methods: [fats]", "flight.yaml:12: precision.quick.methods: there is no \"fats\""},

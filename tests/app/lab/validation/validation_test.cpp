@@ -127,6 +127,7 @@ TEST(Validation, MistakesNameTheirLine)
         {"  checks: [{read: 1, at_most: 1}]\n", "case.yaml:2: validate.every is missing"},
         {"  every: 0\n  checks: [{read: 1, at_most: 1}]\n", "case.yaml:3: validate.every: must be above 0"},
         {"  every: 1\n", "case.yaml:2: validate.checks is missing"},
+        {"  every: 1\n  quick: true\n", "case.yaml:4: validate.quick: needs a map"},
         {"  every: 1\n  checks: []\n", "case.yaml:4: validate.checks: needs a list"},
         {"  every: 1\n  checks:\n    - {read: sped, at_most: 1}\n", "case.yaml:5: validate.checks.0.read: \"sped\""},
         {"  every: 1\n  checks:\n    - {read: 'force_y(\"bal\")', at_most: 1}\n",
