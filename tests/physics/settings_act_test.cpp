@@ -50,6 +50,18 @@ obstacles:
   - {name: ball, shape: {ball: {center: [0, -1.04, 0], radius: 1}}}
 )";
 
+/// Cloth as thick as its material.
+constexpr const char* kThick = R"(
+grid: {cell: 0.25}
+time: {dt: 1.0e-3, duration: 5.0e-3}
+materials:
+  wool: {young: 1.0e+6, thickness: 0.06}
+fabrics:
+  - name: sheet
+    cloth_grid: {material: wool, nodes: [5, 5], spacing: [0.2, 0.2], origin: [0, 0, 0], u: [1, 0, 0], v: [0, 0, 1]}
+    pin: [{nodes: [0, 1]}]
+)";
+
 /// Where a setting acts, and to what it is changed where not to a value beside its own.
 struct Ground {
     const char* scene = kWet;
@@ -111,6 +123,10 @@ const std::map<std::string, Ground> kGrounds = {
     {"fabric.newton", {kWet, {}, "9"}},
     {"fabric.tolerance", {kWet, {}, "1.0e-9"}},
     {"fabric.max_halvings", {kWet, {"time.dt=5.0e-3", "fabrics.1.velocity=[10, -1000, 0]"}, "0"}},
+    {"materials.wool.thickness", {kThick, {}, "0.08"}},
+    {"materials.wool.stretch_stiffness", {kWet, {}, "[1.0e+5, 5.0e+4]"}},
+    {"materials.wool.shear_stiffness", {kWet, {"materials.wool.stretch_stiffness=[1.0e+5, 5.0e+4]"}, "1.0e+4"}},
+    {"materials.wool.bending_stiffness", {kWet, {}, "[1, 0.5]"}},
     {"materials.wool.contact_stiffness", {kWet, {kGridSolver}, "10"}},
     {"materials.wool.pin_stiffness", {kWet, {kGridSolver}}},
 };
