@@ -116,12 +116,48 @@ template <class Set, int b, int c>
     return v;
 }
 
+using Row = double __attribute__((vector_size(32)));
+
+[[gnu::always_inline]] inline Row lowerRow(Pack v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+
+/// Numbers at the nodes of a plane: rows y = 0, 1 in one pack; in another rows 2 and 3, or in half a pack row 2 where that is the last.
 template <int kRows>
-[[gnu::always_inline]] inline void addRows(double* tile, const Pack (&plane)[2])
+struct Plane {
+    using Upper = std::conditional_t<kRows == 4, Pack, Row>;
+    Pack lower = {};
+    Upper upper = {};
+
+    Plane() = default;
+    [[gnu::always_inline]] Plane(Pack rows01, Pack rows23) : lower(rows01)
+    {
+        if constexpr (kRows == 4) upper = rows23;
+        else upper = lowerRow(rows23);
+    }
+
+    [[gnu::always_inline]] Plane& operator+=(const Plane& other)
+    {
+        lower += other.lower;
+        upper += other.upper;
+        return *this;
+    }
+    [[gnu::always_inline]] friend Plane operator+(Plane a, const Plane& b) { return a += b; }
+    [[gnu::always_inline]] friend Plane operator*(Plane a, const Plane& b)
+    {
+        a.lower *= b.lower;
+        a.upper *= b.upper;
+        return a;
+    }
+    [[gnu::always_inline]] friend Plane operator*(const Plane& a, double b) { return a * Plane(broadcast(b), broadcast(b)); }
+};
+
+template <int kRows>
+[[gnu::always_inline]] inline void addRows(double* tile, const Plane<kRows>& plane)
 {
     unroll<kRows>([&](auto row) {
         HalfPack part, sum;
-        std::memcpy(&part, reinterpret_cast<const char*>(&plane[row / 2]) + (row % 2) * sizeof part, sizeof part);
+        std::memcpy(&part,
+                    (row < 2 ? reinterpret_cast<const char*>(&plane.lower) : reinterpret_cast<const char*>(&plane.upper)) + (row % 2) * sizeof part,
+                    sizeof part);
         std::memcpy(&sum, tile + row * kTileStrideY, sizeof sum);
         sum += part;
         std::memcpy(tile + row * kTileStrideY, &sum, sizeof sum);
@@ -164,7 +200,7 @@ template <int kAxis, class Set, int kModes>
     const int *const source = particles.source, blockFirst = particles.first;
     const double* const* mode = particles.mode;
     constexpr int kPlanes = kAxis == 2 ? 4 : 3, kRows = kAxis == 1 ? 4 : 3;
-    Pack m[kPlanes][2] = {}, p[kPlanes][2] = {};
+    Plane<kRows> m[kPlanes], p[kPlanes];
     for (int k = low; k <= high; ++k) {
         for (int s = start[k]; s < start[k + 1]; ++s) {
             const auto& q = prepared[(s - blockFirst) / kLanes];
@@ -172,45 +208,35 @@ template <int kAxis, class Set, int kModes>
             prefetchModes<kModes>(mode, source + s);
             const Pack x = tables.laneX - (kAxis == 0 ? q.x[l] : q.middleX[l]);
             const Pack wx = kAxis == 0 ? tables.x[q.typeX[l]](q.faceX[l]) : tables.x[0](q.middleX[l]);
-            const double offsetY = kAxis == 1 ? q.y[l] : q.middleY[l];
+            const double offsetY = kAxis == 1 ? q.y[l] : q.middleY[l], ry = kAxis == 1 ? q.faceY[l] : q.middleY[l];
             const SplineRow(&splineY)[2] = kAxis == 1 ? tables.y[q.typeY[l]] : tables.y[0];
-            const double ry = kAxis == 1 ? q.faceY[l] : q.middleY[l];
-            Pack y[2], w[2];
-            unroll<2>([&](auto h) {
-                y[h] = tables.laneY[h] - offsetY;
-                w[h] = wx * splineY[h](ry);
-            });
+            const Plane<kRows> y(tables.laneY[0] - offsetY, tables.laneY[1] - offsetY), w(wx * splineY[0](ry), wx * splineY[1](ry));
             const auto weightZ = [&](auto n, auto d) { return kAxis == 2 ? q.faceZ[n][d][l] : q.centerZ[n % 3][d][l]; };
-            unroll<kPlanes>([&](auto n) { unroll<2>([&](auto h) { m[n][h] += w[h] * weightZ(n, std::integral_constant<int, 0>{}); }); });
+            unroll<kPlanes>([&](auto n) { m[n] += w * weightZ(n, std::integral_constant<int, 0>{}); });
             unroll<Set::kFactors>([&](auto c) {
                 constexpr int kCountY = Set::countY(c);
-                Pack poly[2];
                 const Pack top = polynomialX<Set, kCountY - 1, c>(mode, row, x);
-                unroll<2>([&](auto h) { poly[h] = top; });
+                Plane<kRows> poly(top, top);
                 unroll<kCountY - 1>([&](auto b) {
                     const Pack next = polynomialX<Set, kCountY - 2 - b, c>(mode, row, x);
-                    unroll<2>([&](auto h) { poly[h] = poly[h] * y[h] + next; });
+                    poly = poly * y + Plane<kRows>(next, next);
                 });
-                unroll<2>([&](auto h) {
-                    const Pack value = poly[h] * w[h];
-                    unroll<kPlanes>([&](auto n) { p[n][h] += value * weightZ(n, c); });
-                });
+                const Plane<kRows> value = poly * w;
+                unroll<kPlanes>([&](auto n) { p[n] += value * weightZ(n, c); });
             });
         }
-        addRows<kRows>(mass + k * kTileStrideZ, m[0]);
-        addRows<kRows>(momentum + k * kTileStrideZ, p[0]);
+        addRows(mass + k * kTileStrideZ, m[0]);
+        addRows(momentum + k * kTileStrideZ, p[0]);
         unroll<kPlanes - 1>([&](auto n) {
-            unroll<2>([&](auto h) {
-                m[n][h] = m[n + 1][h];
-                p[n][h] = p[n + 1][h];
-            });
+            m[n] = m[n + 1];
+            p[n] = p[n + 1];
         });
-        unroll<2>([&](auto h) { m[kPlanes - 1][h] = p[kPlanes - 1][h] = broadcast(0.0); });
+        m[kPlanes - 1] = p[kPlanes - 1] = {};
     }
     const int above = high + 1;
     unroll<kPlanes - 1>([&](auto n) {
-        addRows<kRows>(mass + (above + n) * kTileStrideZ, m[n]);
-        addRows<kRows>(momentum + (above + n) * kTileStrideZ, p[n]);
+        addRows(mass + (above + n) * kTileStrideZ, m[n]);
+        addRows(momentum + (above + n) * kTileStrideZ, p[n]);
     });
 }
 
