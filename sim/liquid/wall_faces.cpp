@@ -152,17 +152,17 @@ WallFaces::WallDriven WallFaces::drivenByWalls(const ObstacleField& field, const
     return parallelReduce(blocks_.size(), WallDriven{}, ofBlock, std::plus<>());
 }
 
-void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces)
+void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces, BlockArray<double, 3>& weightless)
 {
     field.foldRoom(!empty());
     if (empty()) return;
     folded_.resize(static_cast<int>(blocks_.size()));
-    parallelFor(blocks_.size(), 8, [&](std::size_t n) { std::fill_n(folded_.block(static_cast<int>(n)), BlockArray<double, 9>::kStride, 0.0); });
-    const auto give = [&](CellRef to, int component, double mass, double momentum, double room) {
+    parallelFor(blocks_.size(), 8,
+                [&](std::size_t n) { std::fill_n(folded_.block(static_cast<int>(n)), BlockArray<double, kFolded>::kStride, 0.0); });
+    constexpr std::array kKinds = {kMass, kMomentum, kRoom, kWeightless};
+    const auto give = [&](CellRef to, int component, double share, const std::array<double, kKinds.size()>& what) {
         double* target = folded_.block(place_[to.block]) + to.cell;
-        target[(kMass + component) * kBlockCells] += mass;
-        target[(kMomentum + component) * kBlockCells] += momentum;
-        target[(kRoom + component) * kBlockCells] += room;
+        for (std::size_t n = 0; n < kKinds.size(); ++n) target[(kKinds[n] + component) * kBlockCells] += share * what[n];
     };
     // First each closed face's share …
     parallelFor(blocks_.size(), 4, [&](std::size_t n) {
@@ -170,9 +170,9 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
         for (const Follower& f : followers_[n]) {
             if (f.share == 0.0) continue;
             double &mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face],
-                   &momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face];
-            give({b, f.face}, f.axis, f.share * mass, f.share * momentum, f.share * field.room(b, f.axis)[f.face]);
-            mass = momentum = 0.0;
+                   &momentum = faces.sums.block(b, FaceFields::kMomentum + f.axis)[f.face], &held = weightless.block(b, f.axis)[f.face];
+            give({b, f.face}, f.axis, f.share, {mass, momentum, field.room(b, f.axis)[f.face], held});
+            mass = momentum = held = 0.0;
         }
     });
     // … and then forwards, sweep by sweep.
@@ -183,11 +183,9 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
                     const double* from = folded_.block(place) + face;
                     int count = 0;
                     forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef) { ++count; });
-                    const double share = 1.0 / count;
-                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef to) {
-                        give(to, a, share * from[(kMass + a) * kBlockCells], share * from[(kMomentum + a) * kBlockCells],
-                             share * from[(kRoom + a) * kBlockCells]);
-                    });
+                    std::array<double, kKinds.size()> what;
+                    for (std::size_t n = 0; n < kKinds.size(); ++n) what[n] = from[(kKinds[n] + a) * kBlockCells];
+                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef to) { give(to, a, 1.0 / count, what); });
                 });
             }
         });
@@ -199,6 +197,7 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
                 faces.sums.block(b, FaceFields::kMass + a)[face] += from[(kMass + a) * kBlockCells];
                 faces.sums.block(b, FaceFields::kMomentum + a)[face] += from[(kMomentum + a) * kBlockCells];
                 field.addRoom(b, a, face, from[(kRoom + a) * kBlockCells]);
+                weightless.block(b, a)[face] += from[(kWeightless + a) * kBlockCells];
             });
     });
 }

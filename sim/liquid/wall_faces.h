@@ -30,8 +30,10 @@ class WallFaces {
     WallDriven drivenByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const;
     WallDriven driven;  ///< part that walls drive in this step; nothing where all walls rest
 
-    /// Move mass, momentum and room of the closed faces to those that they follow. What follows no open face keeps its own.
-    void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces);
+    /// Move mass, momentum and room of the closed faces to those that they follow, and of the mass what nothing feels the weight of. What follows no
+    /// open face keeps its own.
+    /// @param weightless  as for drivenByWalls
+    void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces, BlockArray<double, 3>& weightless);
 
     BlockBits<3> mirrored;  ///< faces that plane walls give a velocity to, one wall after another
 
@@ -47,8 +49,8 @@ class WallFaces {
         std::uint8_t axis;
         double share;  ///< [-], 0 … 1
     };
-    /// Mass [g], momentum [g cm/s] and room [-] of the faces of one block that come from behind walls.
-    static constexpr int kMass = 0, kMomentum = 3, kRoom = 6;
+    /// Mass [g], momentum [g cm/s], room [-] and weightless mass [g] of the faces of one block that come from behind walls.
+    static constexpr int kMass = 0, kMomentum = 3, kRoom = 6, kWeightless = 9, kFolded = 12;
 
     void findLayers(const CutGrid& cut, const FaceFields& faces);
     void findFollowers(const BlockGrid& grid, const Obstacles& obstacles, double friction, const FaceFields& faces);
@@ -61,7 +63,7 @@ class WallFaces {
     std::vector<int> place_;                        ///< place of each block among those near a solid
     std::array<std::vector<int>, 8> colors_;        ///< places of blocks of which no two touch
     std::vector<int> blocks_;                       ///< blocks near a solid
-    BlockArray<double, 9> folded_;                  ///< what images fold onto the faces of each block near a solid
+    BlockArray<double, kFolded> folded_;            ///< what images fold onto the faces of each block near a solid
 };
 
 }  // namespace sim

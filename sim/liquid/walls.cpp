@@ -176,32 +176,26 @@ void mirrorAtPlaneWalls(const BlockGrid& grid, const Obstacles& obstacles, FaceF
 
 void mirrorAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double friction, ObstacleField& field, WallFaces& followers, LiquidGrid& liquid)
 {
-    const bool moves = obstacles.anyMoving();
-    if (moves) {
-        liquid.weightless.resize(grid.count());
-        parallelFor(field.blocksNearSolid().size(), 8,
-                    [&](std::size_t n) { std::fill_n(liquid.weightless.block(field.blocksNearSolid()[n]), BlockArray<double, 3>::kStride, 0.0); });
-    }
+    const std::vector<int>& blocks = field.blocksNearSolid();
+    liquid.weightless.resize(grid.count());
+    parallelFor(blocks.size(), 8, [&](std::size_t n) { std::fill_n(liquid.weightless.block(blocks[n]), BlockArray<double, 3>::kStride, 0.0); });
     mirrorAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
     followers.find({grid, field, obstacles}, friction, liquid.faces);
-    followers.driven = moves ? followers.drivenByWalls(field, liquid.faces, liquid.weightless) : WallFaces::WallDriven{};
-    followers.fold(grid, field, liquid.faces);
+    followers.driven = obstacles.anyMoving() ? followers.drivenByWalls(field, liquid.faces, liquid.weightless) : WallFaces::WallDriven{};
+    followers.fold(grid, field, liquid.faces, liquid.weightless);
 }
 
-void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& gravity, double dt, LiquidGrid& liquid)
+void withholdWeightOfImages(const ObstacleField& field, const Vec3& gravity, double dt, LiquidGrid& liquid)
 {
-    forEachPlaneWall(grid, obstacles, [&](const Obstacles::Wall& wall, int, auto&& forBlocksAtWall) {
-        const int a = wall.axis;
-        if (gravity[a] == 0.0) return;
-        forBlocksAtWall([&](int b) {
-            double *held = liquid.weightless.block(b, a), *velocity = liquid.faces.velocity.block(b, a);
-            const double* mass = liquid.faces.sums.block(b, FaceFields::kMass + a);
-            for (int c = 0; c < kBlockCells; ++c) {
-                if (held[c] == 0.0 || !(mass[c] > 0.0)) continue;
-                velocity[c] -= dt * gravity[a] * held[c] / mass[c];
-                held[c] = 0.0;  // once, where walls meet
-            }
-        });
+    const std::vector<int>& blocks = field.blocksNearSolid();
+    parallelFor(blocks.size(), 2, [&](std::size_t n) {
+        for (int a = 0; a < kAxes; ++a) {
+            if (gravity[a] == 0.0) continue;
+            const double *held = liquid.weightless.block(blocks[n], a), *mass = liquid.faces.sums.block(blocks[n], FaceFields::kMass + a);
+            double* velocity = liquid.faces.velocity.block(blocks[n], a);
+            for (int c = 0; c < kBlockCells; ++c)
+                if (held[c] != 0.0 && mass[c] > 0.0) velocity[c] -= dt * gravity[a] * held[c] / mass[c];
+        }
     });
 }
 

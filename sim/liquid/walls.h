@@ -35,6 +35,6 @@ void mirrorAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double fri
 /// After dt of weight on all that faces carry: take back what it did to the weightless part. Then weight does on the faces the work that it does
 /// on the particles, which read the velocities of applyWalls: sum (m_f - weightless) g u_f = sum m_p g v_p, where no wall has friction. Along walls
 /// that do it acts evenly all the same, for only so can a pressure hold it: friction takes from the particles' motion after it.
-void withholdWeightOfImages(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& gravity, double dt, LiquidGrid& liquid);
+void withholdWeightOfImages(const ObstacleField& field, const Vec3& gravity, double dt, LiquidGrid& liquid);
 
 }  // namespace sim

@@ -40,7 +40,7 @@ void applyGravity(StepContext& c)
     const BlockGrid& grid = c.state.grid;
     const Vec3& gravity = c.settings().gravity;
     computeFaceVelocities(grid, gravity, c.fallTime(), c.keepsAdvected(), c.work.grid);
-    if (hasImages(c)) withholdWeightOfImages(grid, c.work.obstacles, gravity, c.fallTime(), c.work.grid);
+    if (hasImages(c)) withholdWeightOfImages(c.work.obstacleField, gravity, c.fallTime(), c.work.grid);
     c.work.grid.unpressed = c.work.grid.faces.velocity;
     c.energy.onFaces(EnergyChange::Gravity);
 }

@@ -199,7 +199,7 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
         WallFaces followers;
         mirrorAtWalls(scene.grid, scene.obstacles, friction, scene.field, followers, scene.liquid);
         computeFaceVelocities(scene.grid, gravity, dt, false, scene.liquid);
-        withholdWeightOfImages(scene.grid, scene.obstacles, gravity, dt, scene.liquid);
+        withholdWeightOfImages(scene.field, gravity, dt, scene.liquid);
         const auto mass = [&](const auto& sums, int a, const Vec3i& c) {
             return sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell];
         };
@@ -238,7 +238,7 @@ TEST(Walls, WeightIsEvenAlongThem)
         WallFaces followers;
         mirrorAtWalls(scene.grid, scene.obstacles, std::array{0.0, 0.3, 0.9}[seed % 3], scene.field, followers, scene.liquid);
         computeFaceVelocities(scene.grid, gravity, 0.01, false, scene.liquid);
-        withholdWeightOfImages(scene.grid, scene.obstacles, gravity, 0.01, scene.liquid);
+        withholdWeightOfImages(scene.field, gravity, 0.01, scene.liquid);
         scene.forEachFace([&](int a, const Vec3i& c) {
             if (!(scene.open(a, c) > 0.0) || c[a] < 3 || c[a] > size[a] - 3) return;
             EXPECT_NEAR(scene.velocity(a, c), 0.01 * gravity[a], 1.0e-12) << seed << ", axis " << a << ", face " << c.transpose();
