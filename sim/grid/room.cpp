@@ -39,9 +39,49 @@ double shareOfCube(const Vec3& n, double d)
     return d > 0.0 ? 1.0 - less : less;
 }
 
+/// What is open of a cube, and its first moments about the middle in edges of the cube.
+struct OpenCube {
+    double share;  ///< [-]
+    Vec3 moment;   ///< [-]
+};
+
+/// Calls f(offset of its middle, in edges of the cube) for each of the eight halves of a cube.
+template <class F>
+void forEachHalf(F&& f)
+{
+    for (int n = 0; n < 8; ++n) f(0.25 * Vec3(n & 1 ? 1.0 : -1.0, n & 2 ? 1.0 : -1.0, n & 4 ? 1.0 : -1.0));
+}
+
+/// @param halvings  of the edge, at most, where surfaces that meet at an edge or bend within the cube cut it
+OpenCube openOf(const Obstacles& obstacles, const Vec3& middle, double edge, double reach, int halvings)
+{
+    constexpr double kUneven = 0.05;  // of distances from those of a plane: less is one [edges]
+    const auto [distance, normal] = surfaceAcrossSeams(obstacles, middle, reach);
+    if (std::abs(distance) >= 0.5 * std::sqrt(3.0) * edge) return {distance > 0.0 ? 1.0 : 0.0, Vec3::Zero()};
+    bool isPlane = true;
+    if (halvings > 0)
+        forEachHalf([&](const Vec3& at) {
+            isPlane =
+                isPlane && std::abs(distanceAcrossSeams(obstacles, middle + edge * at, reach) - distance - edge * normal.dot(at)) < kUneven * edge;
+        });
+    OpenCube cube{0.0, Vec3::Zero()};
+    if (isPlane) {
+        cube.share = shareOfCube(normal, distance / edge);
+        cube.moment = 0.5 * cube.share * (1.0 - cube.share) * normal;  // of a cut across an axis; of others nearly
+        return cube;
+    }
+    forEachHalf([&](const Vec3& at) {
+        const OpenCube half = openOf(obstacles, middle + edge * at, 0.5 * edge, reach, halvings - 1);
+        cube.share += 0.125 * half.share;
+        cube.moment += 0.125 * (half.share * at + 0.5 * half.moment);
+    });
+    return cube;
+}
+
 /// Only the parts of cells that a surface cuts are looked at one by one.
 void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, OpenParts& open)
 {
+    constexpr int kMostHalvings = 2;
     const double part = grid.dx / kParts, reach = 0.5 * std::sqrt(3.0) * grid.dx;
     const Vec3 corner = grid.lowerCorner(block) - Vec3::Constant(kRim * grid.dx);
     for (OfParts& moment : open.moment) moment.fill(0.0);
@@ -51,13 +91,11 @@ void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, Open
                 const double ofCell = distanceAcrossSeams(obstacles, corner + part * Vec3(i, j, k) + Vec3::Constant(0.5 * grid.dx), grid.dx);
                 for (int n = 0; n < kParts * kParts * kParts; ++n) {
                     const Vec3i at(i + n % kParts, j + n / kParts % kParts, k + n / (kParts * kParts));
-                    double& share = open.share[indexOf(at)] = ofCell > 0.0 ? 1.0 : 0.0;
+                    open.share[indexOf(at)] = ofCell > 0.0 ? 1.0 : 0.0;
                     if (std::abs(ofCell) >= reach) continue;
-                    const Vec3 middle = corner + part * (at.cast<double>() + Vec3::Constant(0.5));
-                    const auto [distance, normal] = surfaceAcrossSeams(obstacles, middle, grid.dx);
-                    share = shareOfCube(normal, distance / part);
-                    // Of a cut across an axis; of others nearly.
-                    for (int a = 0; a < kAxes; ++a) open.moment[a][indexOf(at)] = 0.5 * share * (1.0 - share) * normal[a];
+                    const OpenCube cube = openOf(obstacles, corner + part * (at.cast<double>() + Vec3::Constant(0.5)), part, grid.dx, kMostHalvings);
+                    open.share[indexOf(at)] = cube.share;
+                    for (int a = 0; a < kAxes; ++a) open.moment[a][indexOf(at)] = cube.moment[a];
                 }
             }
 }
