@@ -54,6 +54,34 @@ TEST(Rest, OfAPoolLasts)
     }
 }
 
+/// So does a pool in a tank that is no multiple of the cell wide, whose walls leave any part of the last cells.
+TEST(Rest, OfAPoolBetweenWallsWithinCellsLasts)
+{
+    struct Case {
+        Transfer transfer;
+        double cell;
+    };
+    for (const Case& c : {Case{kPoly8, 0.7}, {kPoly8, 0.6}, {kPoly8, 0.55}, {kApic, 0.45}, {kPoly27, 0.6}, {kFlip, 0.7}}) {
+        const double width = 4.0 / c.cell, depth = 3.0 / c.cell;
+        Scene scene = tankScene(c.transfer, c.cell, {width, 2.0 * width, width}, Vec3::Zero(), {width, depth, width});
+        scene.settings.time.mode = TimeMode::Fixed;
+        scene.settings.time.dt = 4.0e-3;
+        scene.settings.time.integrator = c.transfer.name == kFlip.name ? TimeIntegrator::Plain : TimeIntegrator::Reflected;
+        Simulation simulation(scene);
+        const Energies start = simulation.energies();
+        double fastest = 0.0;
+        Energies now;
+        while (simulation.state().time < 5.0) {
+            now = simulation.step(5.0).energies;
+            fastest = std::max(fastest, std::sqrt(2.0 * now.kinetic / 48.0));
+        }
+        const double risen = now.total() / start.total() - 1.0;
+        std::printf("%-11s cell %.2f cm: at most %.2e cm/s, risen by %.1e\n", c.transfer.name.c_str(), c.cell, fastest, risen);
+        EXPECT_LT(fastest, 0.05) << c.transfer.name << ' ' << c.cell;  // in the first steps, as the lattice settles
+        EXPECT_NEAR(risen, 0.0, 5.0e-4) << c.transfer.name << ' ' << c.cell;
+    }
+}
+
 /// Cells above a level in a plane of faces are on the verge of being liquid: that some are and others not moves nothing, and takes no energy.
 TEST(Rest, OfALevelInAPlaneOfFacesLasts)
 {
@@ -154,9 +182,9 @@ TEST(Rest, OfAPoolInVesselsOfAnyShapeLasts)
                 // Where the level meets slanted walls within a cell it settles, alike for all patterns; the published one has fewer and heavier
                 // particles there.
                 const bool isReference = pattern == Pattern::Reference;
-                // Weight stands where splines leave it, which at slanted walls, whose rooms are those of one height, is not quite even: .51 cm/s and
-                // 2.2e-3 in the tank that is tilted and turned.
-                EXPECT_LT(fastest, 0.53) << what;
+                // Weight stands where splines leave it, which at slanted walls, whose rooms are those of one height, is not quite even: .535 cm/s (of
+                // random places) and 2.2e-3 in the tank that is tilted and turned.
+                EXPECT_LT(fastest, 0.55) << what;
                 EXPECT_NEAR((start - now.potential) / (0.5 * mass * 981.0 * vessel.depth), 0.0, isReference ? 3.0e-3 : 2.4e-3) << what;
             }
 }

@@ -91,6 +91,27 @@ TEST(Room, AddsUpToTheOpenVolume)
     }
 }
 
+/// Where walls meet at an edge or in a corner the room is the product along the axes. With parts cut by one plane each it was up to .031 off.
+TEST(Room, InACornerIsNearlyTheProductOfTheIntegrals)
+{
+    const CounterRandom random(5, 1);
+    for (std::uint64_t n = 0; n < 20; ++n) {
+        GridScene scene({0, 0, 0}, {8, 8, 8});
+        Vec3 at;  // of the corner of what is open, in cells
+        for (int a = 0; a < kAxes; ++a) at[a] = 4.0 + random.uniform(3 * n + a);
+        const Vec3 corner = scene.corner({0, 0, 0}) + scene.grid.dx * at;
+        scene.add(Shape::box(corner - Vec3::Constant(50.0 * scene.grid.dx), Vec3::Constant(50.0 * scene.grid.dx)).inverted());
+        const std::vector<double> values = room(scene, 0, false);
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                double expected = 1.0;
+                for (int axis = 0; axis < kAxes; ++axis)
+                    expected *= splineUpTo(at[axis] - (axis == 0 ? c & 7 : axis == 1 ? c >> 3 & 7 : c >> 6) - (axis == a ? 0.0 : 0.5));
+                EXPECT_NEAR(values[a * kBlockCells + c], expected, 0.0125) << at.transpose() << ", axis " << a << ", face " << c;
+            }
+    }
+}
+
 TEST(Room, CellsWithoutAnOpenFaceAreBlocked)
 {
     GridScene scene({0, 0, 0}, {16, 16, 16});

@@ -220,6 +220,46 @@ TEST(Walls, WeightDoesOnFacesTheWorkThatItDoesOnParticles)
     }
 }
 
+/// So it is where a wall within cells meets a floor in a plane of faces: what follows open faces takes what images hold of it along.
+TEST(Walls, WeightDoesThatWorkWhereWallsWithinCellsMeetAFloor)
+{
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> unit(-1.0, 1.0);
+        GridScene scene({-3, -3, -3}, {16, 16, 16});
+        const double dx = scene.grid.dx;
+        const Vec3 low = scene.corner({0, 0, 0}), high = scene.corner({7, 5, 9}) + dx * Vec3(0.5 * unit(random), 0.0, 0.5 * unit(random));
+        scene.add(Shape::box(0.5 * (low + high), 0.5 * (high - low)).inverted());
+        FaceFields& faces = scene.liquid.faces;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            if ((c.array() < -1).any() || (c.array() > Vec3i(7, 5, 9).array() + Vec3i::Unit(a).array()).any()) return;
+            faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] = std::pow(10.0, 2.0 * unit(random));
+        });
+        const auto given = faces.sums;
+        const double dt = 0.01;
+        const Vec3 gravity(0.0, -981.0, 0.0);
+        WallFaces followers;
+        mirrorAtWalls(scene.grid, scene.obstacles, 0.0, scene.field, followers, scene.liquid);
+        computeFaceVelocities(scene.grid, gravity, dt, false, scene.liquid);
+        withholdWeightOfImages(scene.field, gravity, dt, scene.liquid);
+        const BlockArray<double, 3> fallen = faces.velocity;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            scene.velocity(a, c) = 10.0 * unit(random);
+            if (faces.sums.block(scene.at(c).block, FaceFields::kMass + a)[scene.at(c).cell] > 0.0 && scene.open(a, c) > 0.0) scene.setValid(a, c);
+        });
+        applyWalls(scene.cut(), 0.0, false, followers, faces.valid, faces.velocity);
+        double onFaces = 0.0, onParticles = 0.0, scale = 0.0;
+        scene.forEachFace([&](int a, const Vec3i& c) {
+            const auto [block, cell] = scene.at(c);
+            const double u = scene.velocity(a, c), particles = given.block(block, FaceFields::kMass + a)[cell] * gravity[a] * u;
+            onFaces += faces.sums.block(block, FaceFields::kMass + a)[cell] * fallen.block(block, a)[cell] / dt * u;
+            onParticles += particles;
+            scale += std::abs(particles);
+        });
+        EXPECT_NEAR(onFaces, onParticles, 1.0e-12 * scale) << seed;
+    }
+}
+
 /// Along a wall weight gives all faces the same velocity, whatever the friction: only so can a pressure hold it.
 TEST(Walls, WeightIsEvenAlongThem)
 {
