@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sim {
 
@@ -45,58 +46,84 @@ struct OpenCube {
     Vec3 moment;   ///< [-]
 };
 
-/// Calls f(offset of its middle, in edges of the cube) for each of the eight halves of a cube.
-template <class F>
-void forEachHalf(F&& f)
+struct Cube {
+    Vec3 middle;
+    double edge;   ///< [cm]
+    double reach;  ///< as far seams are looked across [cm]
+};
+
+/// Of the eight halves of a cube, relative to its own [edges].
+Vec3 middleOfHalf(int n) { return 0.25 * Vec3(n & 1 ? 1.0 : -1.0, n & 2 ? 1.0 : -1.0, n & 4 ? 1.0 : -1.0); }
+
+/// What is open of a cube that a plane cuts, so far from its middle.
+OpenCube cutByPlane(const Vec3& normal, double distance, double edge)
 {
-    for (int n = 0; n < 8; ++n) f(0.25 * Vec3(n & 1 ? 1.0 : -1.0, n & 2 ? 1.0 : -1.0, n & 4 ? 1.0 : -1.0));
+    const double share = shareOfCube(normal, distance / edge);
+    return {share, 0.5 * share * (1.0 - share) * normal};  // the moment of a cut across an axis; of others nearly
+}
+
+/// Are the distances of a cube's corners those of one plane through a surface near its middle?
+/// @param uneven  most that they may differ [edges]
+bool isPlane(const Obstacles& obstacles, const NearSurface& surface, const Cube& cube, double uneven)
+{
+    for (int n = 0; n < 8; ++n) {
+        const Vec3 corner = 2.0 * cube.edge * middleOfHalf(n);
+        const double distance = distanceAcrossSeams(obstacles, cube.middle + corner, cube.reach);
+        if (std::abs(distance - surface.distance - surface.normal.dot(corner)) >= uneven * cube.edge) return false;
+    }
+    return true;
 }
 
 /// @param halvings  of the edge, at most, where surfaces that meet at an edge or bend within the cube cut it
-OpenCube openOf(const Obstacles& obstacles, const Vec3& middle, double edge, double reach, int halvings)
+OpenCube openOf(const Obstacles& obstacles, const Cube& cube, int halvings)
 {
-    constexpr double kUneven = 0.05;  // of distances from those of a plane: less is one [edges]
-    const auto [distance, normal] = surfaceAcrossSeams(obstacles, middle, reach);
-    if (std::abs(distance) >= 0.5 * std::sqrt(3.0) * edge) return {distance > 0.0 ? 1.0 : 0.0, Vec3::Zero()};
-    bool isPlane = true;
-    if (halvings > 0)
-        forEachHalf([&](const Vec3& at) {
-            isPlane =
-                isPlane && std::abs(distanceAcrossSeams(obstacles, middle + edge * at, reach) - distance - edge * normal.dot(at)) < kUneven * edge;
-        });
-    OpenCube cube{0.0, Vec3::Zero()};
-    if (isPlane) {
-        cube.share = shareOfCube(normal, distance / edge);
-        cube.moment = 0.5 * cube.share * (1.0 - cube.share) * normal;  // of a cut across an axis; of others nearly
-        return cube;
+    constexpr double kUneven = 0.05;
+    const NearSurface surface = surfaceAcrossSeams(obstacles, cube.middle, cube.reach);
+    if (std::abs(surface.distance) >= 0.5 * std::sqrt(3.0) * cube.edge) return {surface.distance > 0.0 ? 1.0 : 0.0, Vec3::Zero()};
+    if (halvings == 0 || isPlane(obstacles, surface, cube, kUneven)) return cutByPlane(surface.normal, surface.distance, cube.edge);
+    OpenCube open{0.0, Vec3::Zero()};
+    for (int n = 0; n < 8; ++n) {
+        const Vec3 at = middleOfHalf(n);
+        const OpenCube half = openOf(obstacles, {cube.middle + cube.edge * at, 0.5 * cube.edge, cube.reach}, halvings - 1);
+        open.share += 0.125 * half.share;
+        open.moment += 0.125 * (half.share * at + 0.5 * half.moment);
     }
-    forEachHalf([&](const Vec3& at) {
-        const OpenCube half = openOf(obstacles, middle + edge * at, 0.5 * edge, reach, halvings - 1);
-        cube.share += 0.125 * half.share;
-        cube.moment += 0.125 * (half.share * at + 0.5 * half.moment);
-    });
-    return cube;
+    return open;
+}
+
+/// The parts of a cell near a surface. Where that is one plane it is looked for once.
+void findOpenParts(const Obstacles& obstacles, const Cube& cell, const Vec3i& first, OpenParts& open)
+{
+    constexpr double kUneven = 1.0e-6;
+    constexpr int kMostHalvings = 2;
+    const NearSurface surface = surfaceAcrossSeams(obstacles, cell.middle, cell.reach);
+    const bool isOnePlane = isPlane(obstacles, surface, cell, kUneven);
+    for (int n = 0; n < 8; ++n) {
+        const double edge = 0.5 * cell.edge;
+        const Vec3 middle = cell.edge * middleOfHalf(n);
+        const OpenCube part = isOnePlane ? cutByPlane(surface.normal, surface.distance + surface.normal.dot(middle), edge)
+                                         : openOf(obstacles, {cell.middle + middle, edge, cell.reach}, kMostHalvings);
+        const int at = indexOf(first + Vec3i(n & 1, n >> 1 & 1, n >> 2));
+        open.share[at] = part.share;
+        for (int a = 0; a < kAxes; ++a) open.moment[a][at] = part.moment[a];
+    }
 }
 
 /// Only the parts of cells that a surface cuts are looked at one by one.
 void findOpen(const BlockGrid& grid, int block, const Obstacles& obstacles, OpenParts& open)
 {
-    constexpr int kMostHalvings = 2;
-    const double part = grid.dx / kParts, reach = 0.5 * std::sqrt(3.0) * grid.dx;
+    static_assert(kParts == 2);
+    const double reach = 0.5 * std::sqrt(3.0) * grid.dx;
     const Vec3 corner = grid.lowerCorner(block) - Vec3::Constant(kRim * grid.dx);
     for (OfParts& moment : open.moment) moment.fill(0.0);
     for (int k = 0; k < kEdge; k += kParts)
         for (int j = 0; j < kEdge; j += kParts)
             for (int i = 0; i < kEdge; i += kParts) {
-                const double ofCell = distanceAcrossSeams(obstacles, corner + part * Vec3(i, j, k) + Vec3::Constant(0.5 * grid.dx), grid.dx);
-                for (int n = 0; n < kParts * kParts * kParts; ++n) {
-                    const Vec3i at(i + n % kParts, j + n / kParts % kParts, k + n / (kParts * kParts));
-                    open.share[indexOf(at)] = ofCell > 0.0 ? 1.0 : 0.0;
-                    if (std::abs(ofCell) >= reach) continue;
-                    const OpenCube cube = openOf(obstacles, corner + part * (at.cast<double>() + Vec3::Constant(0.5)), part, grid.dx, kMostHalvings);
-                    open.share[indexOf(at)] = cube.share;
-                    for (int a = 0; a < kAxes; ++a) open.moment[a][indexOf(at)] = cube.moment[a];
-                }
+                const Vec3i first(i, j, k);
+                const Vec3 middle = corner + grid.dx * (first.cast<double>() / kParts + Vec3::Constant(0.5));
+                const double distance = distanceAcrossSeams(obstacles, middle, grid.dx);
+                for (int n = 0; n < 8; ++n) open.share[indexOf(first + Vec3i(n & 1, n >> 1 & 1, n >> 2))] = distance > 0.0 ? 1.0 : 0.0;
+                if (std::abs(distance) < reach) findOpenParts(obstacles, {middle, grid.dx, grid.dx}, first, open);
             }
 }
 
