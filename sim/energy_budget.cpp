@@ -163,7 +163,7 @@ void EnergyBudget::strainCorrected()
 void EnergyBudget::pressedIn(double work)
 {
     if (!changes_) return;
-    pressedIn_ = work;
+    pressedIn_ += work;
     book(EnergyChange::Sources, work);
 }
 
@@ -257,11 +257,11 @@ void EnergyBudget::solved(const std::optional<Mixture::SeparatedPhases>& separat
     last_ = now;
 }
 
-void EnergyBudget::reflected(double dt)
+void EnergyBudget::reflected(double dt, double byOpenings)
 {
     if (!changes_) return;
     const BlockArray<double>& again = work_.reflection.potential;
-    const double solids = workAgainst(again, dt), sources = inflowWork(state_.grid, work_.inflow, again, dt);
+    const double solids = workAgainst(again, dt), sources = inflowWork(state_.grid, work_.inflow, again, dt) + byOpenings;
     book(EnergyChange::Solids, solids);
     book(EnergyChange::Sources, sources);
     book(EnergyChange::ToParticles, -(solids + sources));

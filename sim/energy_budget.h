@@ -34,10 +34,11 @@ class EnergyBudget {
     void surfaceTension(const std::optional<Mixture::SharedFaces>& shared);
     /// The strain correction has acted on faces that only liquid is on, since remember().
     void strainCorrected();
-    /// The pressure has done this work on liquid that sources pressed into liquid [erg].
+    /// Sources that press liquid into liquid, or openings, have done this work on it [erg].
     void pressedIn(double work);
-    /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids and sources.
-    void reflected(double dt);
+    /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids, sources and openings.
+    /// @param byOpenings  work of the latter [erg]
+    void reflected(double dt, double byOpenings);
     /// Back on the particles, which moved for dt [s].
     void toParticles(double dt, const PushOutTotals& pushed);
     /// Books the energy difference since the previous call under this change.

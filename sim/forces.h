@@ -41,7 +41,7 @@ struct Load {
 struct MomentumBalance {
     Vec3 change = Vec3::Zero();
     Vec3 weight = Vec3::Zero();
-    Vec3 entered = Vec3::Zero();     ///< momentum that came with liquid from sources
+    Vec3 entered = Vec3::Zero();     ///< momentum that came with liquid from sources and through openings, and what these gave to the liquid
     Vec3 left = Vec3::Zero();        ///< momentum that went with liquid that left the domain
     Vec3 borne = Vec3::Zero();       ///< part of what solids and pins got that no force explains (MomentumBudget), taken from liquid and fabric
     Vec3 unresolved = Vec3::Zero();  ///< momentum that no force explains and nothing bears, given to liquid and fabric

@@ -61,6 +61,13 @@ void MomentumBudget::entered(const State& state, std::size_t first)
     liquid_ += entered;
 }
 
+void MomentumBudget::pushedIn(const Vec3& impulse)
+{
+    if (!isOpen()) return;
+    forces_.balance.entered += impulse;
+    liquid_ += impulse;
+}
+
 void MomentumBudget::left(const State& state)
 {
     if (!isOpen()) return;

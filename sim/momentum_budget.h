@@ -26,6 +26,8 @@ class MomentumBudget {
     void begin(double dt, const State& state);
     /// Sources gave particles from this number on.
     void entered(const State& state, std::size_t first);
+    /// Openings of the domain gave this much to the liquid on the faces [g cm/s].
+    void pushedIn(const Vec3& impulse);
     /// Particles outside of the domain are gone.
     void left(const State& state);
     /// Fabric took up liquid, let go of some, or moved some within itself.

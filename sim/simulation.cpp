@@ -138,6 +138,9 @@ void Simulation::prepareWorkspace()
     if (scene_.settings.time.mode == TimeMode::Adaptive) work_.backup = std::make_unique<StateBackup>();
     for (const ObstacleSettings& obstacle : scene_.obstacles) work_.obstacles.add(obstacle.shape, obstacle.motion);
     work_.obstacles.moveTo(state_.time, state_.time);
+    state_.memory.openings.resize(scene_.openings.size());
+    if (!scene_.openings.empty())
+        work_.openings.prepare(scene_.openings, scene_.domain->bounds(), work_.obstacles, scene_.settings.cell, scene_.settings.gravity);
     work_.momentum.prepare(scene_, fabric_);
     work_.correctsStrain = correctsStrain(scene_);
     work_.relaxReach = relaxReach(scene_);
@@ -148,7 +151,7 @@ void Simulation::prepareWorkspace()
         std::ranges::fill(state_.fabric.held, Vec3::Ones());
     }
     const bool isWet = std::ranges::any_of(scene_.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
-    if (!fabric_.empty() && (isWet || !scene_.sources.empty()))
+    if (!fabric_.empty() && (isWet || !scene_.sources.empty() || !scene_.openings.empty()))
         work_.coupling = std::make_unique<Coupling>(fabric_, scene_.settings, nominalMass(scene_));
     if (!fabric_.empty()) work_.fabric = makeIntegrator();
     if (work_.fabric) work_.fabric->reportForces(work_.momentum.forces());

@@ -2,6 +2,7 @@
 
 #include "sim/fabric/fabric.h"
 #include "sim/grid/block_grid.h"
+#include "sim/opening_settings.h"
 #include "sim/particles/ledger.h"
 #include "sim/particles/liquid_particles.h"
 
@@ -33,6 +34,7 @@ struct StepHistory {
     double deepest =
         std::numeric_limits<double>::infinity();  ///< deepest penetration of fabric into an obstacle; infinite before the first step [cm]
     std::vector<SourceMemory> sources;            ///< as many as the scene has, once any was looked at
+    std::vector<OpeningMemory> openings;          ///< as many as the scene has
 };
 
 /// All that evolves but the liquid's particles, which are most of it.

@@ -112,6 +112,10 @@ void visitMemory(V& v, Memory& memory)
     if constexpr (V::kFills) memory.sources.resize(sources);
     v.rows("memory/sources/owed_press_crowded_freely_covered_at_shut", "cm^3, s", sources, 7,
            [&](std::size_t source) { return &memory.sources[source].owed; });
+    std::size_t openings = memory.openings.size();
+    v.number("memory/openings/count", "-", openings);
+    if constexpr (V::kFills) memory.openings.resize(openings);
+    v.rows("memory/openings/moved_mean_known", "cm, cm/s", openings, 3, [&](std::size_t opening) { return &memory.openings[opening].moved; });
 }
 
 /// Liquid, fabric and what belongs to them, always in this order.

@@ -78,11 +78,13 @@ void runStages(StepContext& c)
     assemblePressure(c);
     levelWeight(c);
     applySurfaceTension(c);
+    driveOpenings(c);
     project(c);
     correctStrain(c);
     bookInflowWork(c);
     correctVolume(c);
     conserveMomentum(c);
+    passOpenings(c);
 
     advanceFabric(c);
     separateMixture(c);

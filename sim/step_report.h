@@ -28,8 +28,8 @@ struct StepReport : StageTimes {
     std::optional<EnergyChanges> energyChanges;    ///< empty unless energies are booked
     double liquidMass = 0.0;                       ///< mass of all particles at the end of the step [g]
     double absorbedMass = 0.0;                     ///< mass of liquid in the fabric at the end of the step [g]
-    double emittedKinetic = 0.0;                   ///< kinetic energy of liquid that came from sources in this step [erg]
-    double inflowWork = 0.0;                       ///< work of the pressure on liquid that sources pressed into liquid in this step [erg]
+    double emittedKinetic = 0.0;                   ///< kinetic energy of liquid that came from sources and through openings in this step [erg]
+    double inflowWork = 0.0;                       ///< work on the liquid of sources that press it into liquid, and of openings, in this step [erg]
     double capturedMass = 0.0, drippedMass = 0.0;  ///< mass that the fabric took up and let go in this step [g]
     Vec3 pinImpulse = Vec3::Zero();                ///< momentum that pins held back in this step (Forces::pins) [g cm/s]
     std::string_view failure;                      ///< reason the state is invalid; empty if valid

@@ -6,6 +6,7 @@
 #include "sim/liquid/gain_at_walls.h"
 #include "sim/liquid/liquid_grid.h"
 #include "sim/liquid/liquid_on_solids.h"
+#include "sim/liquid/openings.h"
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/pressure_beyond.h"
 #include "sim/liquid/reflection.h"
@@ -17,6 +18,7 @@
 #include "sim/momentum_budget.h"
 #include "sim/particles/relax.h"
 #include "sim/sources/emit.h"
+#include "sim/sources/enter_openings.h"
 #include "sim/state_backup.h"
 #include "sim/transfer/gather.h"
 #include "sim/transfer/scatter_bounded.h"
@@ -39,6 +41,9 @@ struct Workspace {
     StrainWorkspace strain;
     EmissionWorkspace emission;
     std::vector<InflowCell> inflow;  ///< cells that the sources of this step press liquid into
+    Openings openings;
+    PassageWorkspace passage;            ///< what comes in through openings
+    std::vector<InflowCell> shutInlets;  ///< buffer of a look at where inlets lead
     WallFaces wallFaces;
     ReflectionWorkspace reflection;
     VolumeWorkspace volume;

@@ -82,7 +82,8 @@ LiquidCells findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid)
                 std::memcpy(liquid.fill.block(b) + cellInBlock(0, j, k), &fill, sizeof fill);
                 inside |= static_cast<std::uint64_t>(maskBits(fill >= kLiquidFill)) << (j * kBlockEdge);
             }
-            liquid.inside.block(b)[k] = (noAir ? ~std::uint64_t{0} : inside) & ~cut.field.blocked(b)[k];
+            const std::uint64_t beyond = liquid.hasOpenings ? liquid.beyond.block(b)[k] : 0;
+            liquid.inside.block(b)[k] = (noAir ? ~std::uint64_t{0} : inside) & ~cut.field.blocked(b)[k] & ~beyond;
         }
     });
     return LiquidCells(liquid);
@@ -93,7 +94,10 @@ SurfaceCells findSurface(const CutGrid& cut, const LiquidCells& cells, LiquidGri
     BlockBits<>& dry = liquid.dry;
     parallelFor(cut.grid.count(), 16, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        for (int k = 0; k < kBlockEdge; ++k) dry.block(b)[k] = ~(liquid.inside.block(b)[k] | cut.field.blocked(b)[k]);
+        for (int k = 0; k < kBlockEdge; ++k) {
+            const std::uint64_t beyond = liquid.hasOpenings ? liquid.beyond.block(b)[k] : 0;
+            dry.block(b)[k] = ~(liquid.inside.block(b)[k] | cut.field.blocked(b)[k] | beyond);
+        }
     });
     std::fill_n(dry.block(cut.grid.count()), BlockBits<>::kWords, ~std::uint64_t{0});
     parallelFor(cut.grid.count(), 16, [&](std::size_t n) {

@@ -33,7 +33,7 @@ class SurfaceCells : public LiquidCells {
 /// @param noAir  every cell with an open face has a pressure
 LiquidCells findLiquidCells(const CutGrid& cut, bool noAir, LiquidGrid& liquid);
 
-/// Which liquid cells are beside air, and which are deep: neither that nor beside such a cell. Walls are no air.
+/// Which liquid cells are beside air, and which are deep: neither that nor beside such a cell. Walls are no air, nor is what is beyond openings.
 /// @param cells  of this liquid
 SurfaceCells findSurface(const CutGrid& cut, const LiquidCells& cells, LiquidGrid& liquid);
 

@@ -21,6 +21,8 @@ struct LiquidGrid {
     BlockBits<> surface;               ///< liquid cells beside air
     BlockBits<> deep;                  ///< liquid cells neither at the surface nor beside it
     BlockBits<> dry;                   ///< cells that are neither inside nor blocked by walls, also in blocks that do not exist
+    bool hasOpenings = false;          ///< liquid passes faces of the domain
+    BlockBits<> beyond;                ///< cells beyond the planes of openings, which have no pressure and are no air; only if `hasOpenings`
 
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.
     double* scratch(int block, int kind = 0) { return faces.sums.block(block, FaceFields::kMomentum + kind); }

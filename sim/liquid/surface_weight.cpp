@@ -103,15 +103,6 @@ class SurfaceColumns {
     int axis_, up_;
 };
 
-/// Share of the mass of even liquid below a level that a quadratic B-spline, so many cells below it, has of its own.
-double shareBelow(double cells)
-{
-    if (std::abs(cells) >= 1.5) return cells > 0.0 ? 1.0 : 0.0;
-    const double rest = 1.5 - std::abs(cells);
-    if (rest > 1.0) return 0.5 + cells * (0.75 - cells * cells / 3.0);
-    return cells > 0.0 ? 1.0 - rest * rest * rest / 6.0 : rest * rest * rest / 6.0;
-}
-
 /// How high, above the lowest face, liquid of this mass stands in a column, if a full face has `full` of it.
 double levelOf(std::span<const double> full, double mass)
 {
@@ -201,6 +192,14 @@ struct Levelling {
 };
 
 }  // namespace
+
+double shareBelow(double cells)
+{
+    if (std::abs(cells) >= 1.5) return cells > 0.0 ? 1.0 : 0.0;
+    const double rest = 1.5 - std::abs(cells);
+    if (rest > 1.0) return 0.5 + cells * (0.75 - cells * cells / 3.0);
+    return cells > 0.0 ? 1.0 - rest * rest * rest / 6.0 : rest * rest * rest / 6.0;
+}
 
 void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids,
                  PressureBeyond& beyond)

@@ -23,6 +23,9 @@ namespace sim {
 void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids,
                  PressureBeyond& beyond);
 
+/// Share of the mass of even liquid below a level that a face's quadratic B-spline, so many cells below it, has of its own [-].
+double shareBelow(double cells);
+
 /// Faces that a column of the surface layer may have. A plane surface has at most four: two cells that are not deep, and the surface's own.
 inline constexpr int kSurfaceColumn = 5;
 

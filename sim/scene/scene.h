@@ -2,6 +2,7 @@
 
 #include "sim/fabric/pieces/piece.h"
 #include "sim/obstacle_settings.h"
+#include "sim/opening_settings.h"
 #include "sim/scene/velocity_field.h"
 #include "sim/settings.h"
 #include "sim/shapes/shape.h"
@@ -71,10 +72,11 @@ struct Scene {
     std::vector<NamedMaterial> materials;
     std::vector<FabricPiece> fabrics;
     std::vector<ObstacleSettings> obstacles;
-    std::optional<Shape> domain;          ///< liquid outside of it is deleted
-    std::string domainText;               ///< the domain as a scene says it, in cgs, on one line
-    std::vector<SettingsChange> changes;  ///< during the run, in order
-    std::vector<std::string> notes;       ///< "drop.yaml:14: …": what was mended in its files, for the user to know
+    std::optional<Shape> domain;            ///< liquid outside of it is deleted
+    std::string domainText;                 ///< the domain as a scene says it, in cgs, on one line
+    std::vector<OpeningSettings> openings;  ///< in faces of the domain, which is a box then
+    std::vector<SettingsChange> changes;    ///< during the run, in order
+    std::vector<std::string> notes;         ///< "drop.yaml:14: …": what was mended in its files, for the user to know
 };
 
 }  // namespace sim

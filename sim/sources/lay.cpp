@@ -13,6 +13,23 @@ namespace sim {
 
 namespace {
 
+/// Gives the particles from `first` on the velocities of the field, and what modes they have its gradient.
+void addField(const VelocityField& field, std::size_t first, State& state)
+{
+    LiquidParticles& liquid = state.liquid;
+    const double dx = state.grid.dx;
+    for (std::size_t p = first; p < liquid.count; ++p) {
+        const Vec3 x = liquid.position(p), velocity = field.at(x);
+        for (int a = 0; a < kAxes; ++a) liquid.mode(a, 0)[p] += velocity[a];
+        if (liquid.modeCount < 4) continue;
+        const Mat3 gradient = field.gradient(x, 1.0e-4 * dx);
+        for (int a = 0; a < kAxes; ++a)
+            for (int b = 0; b < kAxes; ++b) liquid.mode(a, 1 + b)[p] += dx * gradient(a, b);
+    }
+}
+
+}  // namespace
+
 std::vector<Shape> solidsAt(const Scene& scene, double time)
 {
     std::vector<Shape> solids;
@@ -40,23 +57,6 @@ void addParticles(const NewParticles& particles, double density, const Vec3& vel
     });
     state.nextId += static_cast<std::uint32_t>(positions.size());
 }
-
-/// Gives the particles from `first` on the velocities of the field, and what modes they have its gradient.
-void addField(const VelocityField& field, std::size_t first, State& state)
-{
-    LiquidParticles& liquid = state.liquid;
-    const double dx = state.grid.dx;
-    for (std::size_t p = first; p < liquid.count; ++p) {
-        const Vec3 x = liquid.position(p), velocity = field.at(x);
-        for (int a = 0; a < kAxes; ++a) liquid.mode(a, 0)[p] += velocity[a];
-        if (liquid.modeCount < 4) continue;
-        const Mat3 gradient = field.gradient(x, 1.0e-4 * dx);
-        for (int a = 0; a < kAxes; ++a)
-            for (int b = 0; b < kAxes; ++b) liquid.mode(a, 1 + b)[p] += dx * gradient(a, b);
-    }
-}
-
-}  // namespace
 
 std::size_t countUpTo(double volume, double perParticle)
 {

@@ -15,6 +15,9 @@ namespace sim {
 /// The source in messages, with its file: `drop.yaml: source 1 "drop" `.
 std::string nameOf(const Scene& scene, std::size_t source);
 
+/// The obstacles where they are at a time.
+std::vector<Shape> solidsAt(const Scene& scene, double time);
+
 /// Plan that fills a source as it is at a time, with the obstacles where they are then.
 SeedPlan planFor(const Scene& scene, std::size_t source, double time, const State& state);
 
@@ -45,6 +48,9 @@ std::size_t countUpTo(double volume, double perParticle);
 
 /// The first of some seeds.
 NewParticles firstOf(const Seeds& seeds, std::size_t most);
+
+/// Particles that move with a velocity, numbered on; entered nowhere yet.
+void addParticles(const NewParticles& particles, double density, const Vec3& velocity, State& state);
 
 /// Particles of a source, entered in what it has given and in the ledger.
 void lay(const Scene& scene, std::size_t source, const Emission& emission, const NewParticles& particles, State& state);

@@ -65,6 +65,18 @@ PushOutTotals pushOut(StepContext& c, double fastest)
     return pushOutOfObstacles(work.order, c.cut(), farthest, &work.places, c.state.liquid, work.pushedSolids);
 }
 
+/// Openings give momentum to the liquid, which near solids is not from these.
+void bookOpenings(StepContext& c, double perPressure)
+{
+    Workspace& work = c.work;
+    if (work.openings.empty() || !work.momentum.isOpen()) return;
+    std::optional<LiquidOnSolids::Levelling> told;
+    if (c.hasObstacles()) told = work.onSolids.meetLevelling();
+    const BlockArray<double>* again = c.plan.reflects ? &work.reflection.potential : nullptr;
+    const Openings::Outcome outcome{velocityRead(c), work.grid, c.state.pressure, again, perPressure};
+    work.momentum.pushedIn(work.openings.impulse(c.cut(), outcome, told ? &*told : nullptr));
+}
+
 }  // namespace
 
 void findHeld(StepContext& c)
@@ -99,7 +111,10 @@ void applyWalls(StepContext& c)
 
 void pushSolids(StepContext& c)
 {
-    if (!c.plan.isWet || !c.hasObstacles()) return;
+    if (!c.plan.isWet) return;
+    const double perPressure = c.dt * c.work.grid.fullMass / (c.settings().liquid.density * c.state.grid.dx);
+    bookOpenings(c, perPressure);
+    if (!c.hasObstacles()) return;
     const StageScope scope(c.clock, Stage::GridToParticles);
     Workspace& work = c.work;
     if (c.plan.separatedPhases) {
@@ -114,7 +129,7 @@ void pushSolids(StepContext& c)
                                           .again = c.plan.reflects ? &work.reflection.potential : nullptr,
                                           .flipVelocity = c.isFlip() ? &work.grid.advected : nullptr,
                                           .flipRatio = flipRatio(c),
-                                          .perPressure = c.dt * work.grid.fullMass / (c.settings().liquid.density * c.state.grid.dx),
+                                          .perPressure = perPressure,
                                           .fall = c.fallTime() * c.settings().gravity};
     work.onSolids.finish(c.cut(), outcome);
 }

@@ -42,6 +42,8 @@ void applyGravity(StepContext& c)
     computeFaceVelocities(grid, gravity, c.fallTime(), c.keepsAdvected(), c.work.grid);
     if (hasImages(c)) withholdWeightOfImages(c.work.obstacleField, gravity, c.fallTime(), c.work.grid);
     c.work.grid.unpressed = c.work.grid.faces.velocity;
+    c.work.openings.weigh(c.work.grid, c.fallTime() * gravity);
+    c.work.openings.followMean(c.work.grid, gravity.norm(), c.dt, c.state.memory.openings);
     c.energy.onFaces(EnergyChange::Gravity);
 }
 

@@ -2,6 +2,7 @@
 #include "sim/liquid/pressure.h"
 #include "sim/liquid/relax_at_walls.h"
 #include "sim/sources/emit.h"
+#include "sim/sources/enter_openings.h"
 #include "sim/stages/correction.h"
 #include "sim/stages/stages.h"
 
@@ -46,10 +47,12 @@ void emit(StepContext& c)
 {
     State& state = c.state;
     c.work.emission.inflows.clear();
-    if (!emits(c.scene, state, state.time, state.time + c.dt)) return;
+    const bool areSourcesActive = emits(c.scene, state, state.time, state.time + c.dt);
+    if (!areSourcesActive && c.scene.openings.empty()) return;
     const StageScope scope(c.clock, Stage::Emit);
     const std::size_t before = state.liquid.count;
-    emitLiquid(c.scene, state, state.time, state.time + c.dt, c.work.emission);
+    if (areSourcesActive) emitLiquid(c.scene, state, state.time, state.time + c.dt, c.work.emission);
+    enterOpenings(c.scene, c.work.packing, c.dt, state, c.work.passage);
     for (std::size_t p = before; p < state.liquid.count; ++p)
         c.report.emittedKinetic += 0.5 * state.liquid.mass[p] * state.liquid.velocity(p).squaredNorm();
     c.work.momentum.entered(state, before);
@@ -67,6 +70,7 @@ void sort(StepContext& c)
     expectPressure(c);
     work.grid.resize(grid.count(), c.keepsAdvected());
     work.grid.fullMass = work.packing * c.settings().liquid.density * grid.dx * grid.dx * grid.dx;
+    work.openings.find(grid, work.grid);
     work.momentum.left(state);
     c.energy.sorted();
 }

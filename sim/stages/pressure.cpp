@@ -1,3 +1,4 @@
+#include "sim/core/check.h"
 #include "sim/core/parallel.h"
 #include "sim/liquid/cells.h"
 #include "sim/liquid/deep_faces.h"
@@ -27,6 +28,28 @@ void findChange(const BlockArray<double, 3>& velocity, int blocks, Workspace& wo
     });
 }
 
+/// Faces on which neither a solid nor an opening holds the liquid.
+UnheldFaces findUnheld(StepContext& c)
+{
+    const UnheldFaces unheld = findUnheldFaces(c.cut(), c.work.free);
+    c.work.openings.takeHeld(c.work.free.unheld);
+    return unheld;
+}
+
+/// What weight does in a step, for the pressure beyond openings.
+Openings::Push pushOf(const StepContext& c) { return {c.settings().gravity, c.settings().liquid.density, c.fallTime(), c.dt}; }
+
+/// Impulse on a face amid liquid by the step of the pressure [cm^2 s].
+double perPressure(const StepContext& c) { return c.dt * c.work.grid.fullMass / (c.settings().liquid.density * c.state.grid.dx); }
+
+/// Faces of the system for the pressure, which does not act in the planes of inlets.
+PressureFaces pressureFaces(StepContext& c, const SurfaceCells& cells)
+{
+    PressureFaces faces = findPressureFaces(c.cut(), c.settings().liquid, c.dt, cells, c.work.pressure);
+    c.work.openings.closeInlets(faces);
+    return faces;
+}
+
 /// Pressure and surface tension leave free liquid, and fabric that it carries along, the momentum that they have.
 /// @param velocity  of the faces, after both
 void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
@@ -34,7 +57,7 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
     findChange(velocity, grid.count(), work);
-    const UnheldFaces unheld = findUnheldFaces(c.cut(), work.free);
+    const UnheldFaces unheld = findUnheld(c);
     const bool carries = c.plan.eliminatedDrag && c.settings().coupling.pressureOnFabric;
     if (carries) work.coupling->mixture.toMassesOfBoth(*c.plan.eliminatedDrag, work.grid, work.free.change);
     else if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
@@ -74,7 +97,7 @@ void addToPressure(const SolveReport& again, StepContext& c)
 bool weighFreeLiquid(StepContext& c, const PressureComponents& system, PressureFaces& faces)
 {
     if (c.plan.isMixed() || c.settings().liquid.full) return false;
-    return weighDeepFaces(c.cut(), findHeldBodies(c.state.grid, system, findUnheldFaces(c.cut(), c.work.free)), faces);
+    return weighDeepFaces(c.cut(), findHeldBodies(c.state.grid, system, findUnheld(c)), faces);
 }
 
 /// Is there weight that solids may hold?
@@ -86,7 +109,7 @@ void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnS
 {
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    const HeldBodies bodies = findHeldBodies(grid, system, findUnheldFaces(c.cut(), work.free));
+    const HeldBodies bodies = findHeldBodies(grid, system, findUnheld(c));
     work.free.hasFabric = c.plan.isMixed();
     if (work.free.hasFabric) {
         work.free.bare.resize(grid.count());
@@ -113,9 +136,11 @@ void withholdPressure(StepContext& c)
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     work.viscosity.withheld = velocity;
     const SurfaceCells cells = findSurface(c.cut(), findLiquidCells(c.cut(), c.settings().liquid.full, work.grid), work.grid);
-    const PressureSystem system = preparePressure(findPressureFaces(c.cut(), c.settings().liquid, c.dt, cells, work.pressure), c.state.grid);
+    const PressureSystem system = preparePressure(pressureFaces(c, cells), c.state.grid);
     if (hasHeldWeight(c)) levelHeldWeight(c, system, nullptr);
+    work.openings.drive(c.cut(), pushOf(c), system, c.state.memory.openings, work.grid);
     c.report.withheld = solvePressure(c.cut(), c.settings().solver, {}, system, work.grid, c.state.pressure);
+    work.openings.keepMoved(velocity);
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { work.viscosity.withheld.block(0)[i] -= velocity.block(0)[i]; });
 }
 
@@ -125,7 +150,7 @@ void assemblePressure(StepContext& c)
     const StageScope scope(c.clock, Stage::Pressure);
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    PressureFaces faces = findPressureFaces(c.cut(), c.settings().liquid, c.dt, *c.plan.surfaceCells, work.pressure);
+    PressureFaces faces = pressureFaces(c, *c.plan.surfaceCells);
     if (c.plan.sharedFaces)
         c.plan.eliminatedDrag = work.coupling->mixture.eliminateDrag(*c.plan.sharedFaces, work.obstacleField, work.grid, faces.coefficient());
     PressureMatrix matrix = assembleMatrix(faces, grid);
@@ -150,6 +175,14 @@ void applySurfaceTension(StepContext& c)
     c.energy.remember();
     applySurfaceSteps(c.cut(), *c.plan.pressure, c.fallTime() / c.dt, *c.plan.surfaceSteps, c.work.grid);
     c.energy.surfaceTension(c.plan.sharedFaces);
+}
+
+void driveOpenings(StepContext& c)
+{
+    if (!c.plan.isWet || c.work.openings.empty()) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    Workspace& work = c.work;
+    work.openings.drive(c.cut(), pushOf(c), *c.plan.pressure, c.state.memory.openings, work.grid);
 }
 
 void project(StepContext& c)
@@ -198,6 +231,23 @@ void bookInflowWork(StepContext& c)
     c.energy.pressedIn(c.report.inflowWork);
 }
 
+void passOpenings(StepContext& c)
+{
+    if (!c.plan.isWet || c.work.openings.empty()) return;
+    const StageScope scope(c.clock, Stage::Pressure);
+    Workspace& work = c.work;
+    double done = work.openings.driven() + work.openings.carry(c.cut(), work.grid, work.grid.faces.velocity);
+    done += work.openings.pressureWork(c.cut(), work.grid, c.state.pressure, perPressure(c));
+    c.report.inflowWork += done;
+    c.energy.pressedIn(done);
+    for (std::size_t n = 0; n < c.scene.openings.size(); ++n) {
+        work.openings.findInletCells(*c.plan.pressure, n, work.shutInlets);
+        if (!isShutIn(n, work.shutInlets, c.state.grid, *c.plan.pressure)) continue;
+        throw RunError(c.scene.openings[n].where + ": inlet " + c.scene.openings[n].name +
+                       " has filled all that it leads to; give the liquid an outlet, or stop before");
+    }
+}
+
 void correctVolume(StepContext& c)
 {
     if (!c.plan.isWet) return;
@@ -211,7 +261,7 @@ void correctVolume(StepContext& c)
     const double strength = std::min(kLargestShare, rate * state.uncorrected);
     c.report.volume = correctVolume(c.cut(), c.settings(), strength, *c.plan.pressure, work.volume);
     state.uncorrected = 0.0;
-    const UnheldFaces unheld = findUnheldFaces(c.cut(), work.free);
+    const UnheldFaces unheld = findUnheld(c);
     if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
     const HeldBodies bodies = findHeldBodies(state.grid, *c.plan.pressure, unheld);
     takeMeans(state.grid, bodies, work.volume.displacement, work.free, work.volume.displacement);
@@ -230,9 +280,12 @@ void reflect(StepContext& c)
     const StageScope scope(c.clock, Stage::Reflection);
     Workspace& work = c.work;
     const MovingSurface surface{work.free.held, c.isFrameMoving() ? work.free.frames.data() : nullptr, c.settings().liquid.density, c.dt};
+    work.openings.swapAtInlets(work.grid.advected);
     c.report.reflection = reflect(c.cut(), c.settings().solver, work.inflow, *c.plan.pressure, surface, work.reflection);
+    work.openings.swapAtInlets(work.grid.advected);
     restoreMomentum(c, work.reflection.velocity);
-    c.energy.reflected(c.dt);
+    work.openings.carry(c.cut(), work.grid, work.reflection.velocity);
+    c.energy.reflected(c.dt, work.openings.inletWork(c.cut(), work.grid, work.reflection.potential, perPressure(c)));
 }
 
 void completePressure(StepContext& c)

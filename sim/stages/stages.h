@@ -46,12 +46,16 @@ void assemblePressure(StepContext& c);
 /// Take the noise out of the weight of liquid that solids hold.
 void levelWeight(StepContext& c);
 void applySurfaceTension(StepContext& c);
+/// Openings of the domain drive the liquid, or press on it.
+void driveOpenings(StepContext& c);
 /// Solve for the pressure and subtract its gradient.
 void project(StepContext& c);
 /// Stretching within the reach of a B-spline is no inertia: what the pressure did, without it.
 void correctStrain(StepContext& c);
 /// Work of sources that press liquid into liquid.
 void bookInflowWork(StepContext& c);
+/// Beyond outlets velocities go on as in their planes; work of openings.
+void passOpenings(StepContext& c);
 /// Displacements of the faces that bring the liquid back to its volume.
 void correctVolume(StepContext& c);
 /// Pressure and surface tension leave free liquid the momentum that it has, and walls add no energy to it.
@@ -77,7 +81,7 @@ void findHeld(StepContext& c);
 void reflect(StepContext& c);
 /// Velocities of faces behind walls.
 void applyWalls(StepContext& c);
-/// Impulses of the liquid's faces on solids.
+/// Impulses of the liquid's faces on solids, and of openings on the liquid.
 void pushSolids(StepContext& c);
 /// G2P: particles get their velocities and move, and stay out of solids.
 void gridToParticles(StepContext& c);

@@ -65,6 +65,24 @@ TEST(Allocation, StepsInTheSameBlocksAllocateNothing)
     }
 }
 
+/// A stream through a duct from an inlet to an outlet.
+TEST(Allocation, OpeningsAllocateNothing)
+{
+    for (const Transfer& transfer : kTransfers) {
+        Scene scene = tankScene(transfer, 1.0, {40.0, 6.0, 6.0}, {8.0, 0.0, 0.0}, {32.0, 6.0, 6.0});
+        scene.settings.time.cfl = 0.5;
+        scene.sources[0].emissions[0].velocity = Vec3(20.0, 0.0, 0.0);
+        scene.domain = Shape::box({20.0, 3.0, 3.0}, {12.0, 5.0, 5.0});
+        scene.openings = {{.name = "inlet", .velocity = 20.0, .where = {}}, {.name = "outlet", .isUpper = true, .level = 9.0, .where = {}}};
+        const long count = onThreads(1, [&] {
+            Simulation simulation(scene);
+            allocationsOf(simulation, 20);
+            return allocationsOf(simulation, 20);
+        });
+        EXPECT_EQ(count, 0) << transfer.name;
+    }
+}
+
 TEST(Allocation, ViscosityAllocatesNothing)
 {
     for (double friction : {0.0, 1.0}) {

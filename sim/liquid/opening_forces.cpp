@@ -1,0 +1,224 @@
+#include "sim/liquid/openings.h"
+#include "sim/liquid/surface_weight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sim {
+
+namespace {
+
+constexpr double kSlowness = 100.0;  ///< time of the mean of what goes out, relative to that of a long wave over its depth [-]
+
+/// Pressure in the middle of a cell so many cells below a level, relative to that of one cell of liquid: what the faces above it weigh, which bear
+/// what their B-splines have below the level (surface_weight.h). More than a cell below, it is the depth.
+double pressureBelow(double cells)
+{
+    if (cells >= 1.0) return cells;
+    double sum = 0.0;
+    for (double face = cells - 0.5; face > -1.5; face -= 1.0) sum += shareBelow(face);
+    return sum;
+}
+
+/// Does a face carry liquid, and no solid close it?
+bool isPassed(const CutGrid& cut, const LiquidGrid& liquid, const CellRef& face, int axis)
+{
+    return face.block != cut.grid.count() && liquid.wet.test(face.block, face.cell, axis) && cut.field.open(face.block, axis)[face.cell] > 0.0;
+}
+
+double massOf(const LiquidGrid& liquid, const CellRef& face, int axis)
+{
+    return liquid.faces.sums.block(face.block, FaceFields::kMass + axis)[face.cell];
+}
+
+}  // namespace
+
+/// Mean velocity at which liquid goes out through a plane, by mass [cm/s].
+std::optional<double> Openings::meanOut(const Side& side, const LiquidGrid& liquid) const
+{
+    const int a = side.opening.axis;
+    double mass = 0.0, momentum = 0.0;
+    for (std::size_t n = side.firstFace; n < side.endFace; ++n) {
+        const CellRef& face = planeFaces_[n].face;
+        const double m = massOf(liquid, face, a);
+        mass += m;
+        momentum += m * liquid.faces.velocity.block(face.block, a)[face.cell];
+    }
+    return mass > 0.0 ? std::optional(side.opening.outward() * momentum / mass) : std::nullopt;
+}
+
+void Openings::followMean(const LiquidGrid& liquid, double gravity, double dt, std::span<OpeningMemory> memory) const
+{
+    for (std::size_t n = 0; n < sides_.size(); ++n) {
+        const double depth = sides_[n].depth;
+        if (!(depth > 0.0) || !(gravity > 0.0)) continue;
+        const std::optional<double> out = meanOut(sides_[n], liquid);
+        if (!out) continue;
+        const double share = memory[n].isKnown > 0.0 ? -std::expm1(-dt / (kSlowness * std::sqrt(depth / gravity))) : 1.0;
+        memory[n].mean += share * (*out - memory[n].mean);
+        memory[n].isKnown = 1.0;
+    }
+}
+
+/// Face by face, from the top of each column down, against the middle of its liquid.
+void Openings::weigh(const LiquidGrid& liquid, const Vec3& fall)
+{
+    int a = 0;
+    if (fall.cwiseAbs().maxCoeff(&a) == 0.0) return;
+    for (const PlaneFace& top : planeFaces_) {
+        if (top.above != kNone) continue;
+        double missing = 0.0;
+        int wet = 0;
+        for (int n = static_cast<int>(&top - planeFaces_.data()); n != kNone; n = planeFaces_[n].below) {
+            PlaneFace& plane = planeFaces_[n];
+            const auto [block, cell] = plane.over;
+            plane.missing = missing;
+            if (!liquid.wet.test(block, cell, a)) continue;
+            const double before = liquid.faces.sums.block(block, FaceFields::kMomentum + a)[cell] / massOf(liquid, plane.over, a);
+            plane.missing = missing += 1.0 - (liquid.faces.velocity.block(block, a)[cell] - before) / fall[a];
+            ++wet;
+        }
+        int seen = 0;
+        double inMiddle = 0.0;
+        for (int n = static_cast<int>(&top - planeFaces_.data()); n != kNone; n = planeFaces_[n].below)
+            if (liquid.wet.test(planeFaces_[n].over.block, planeFaces_[n].over.cell, a) && 2 * seen++ <= wet) inMiddle = planeFaces_[n].missing;
+        for (int n = static_cast<int>(&top - planeFaces_.data()); n != kNone; n = planeFaces_[n].below) planeFaces_[n].missing -= inMiddle;
+    }
+}
+
+/// What stands beyond an outlet acts on its plane.
+void Openings::press(const CutGrid& cut, const Push& push, const PressureFaces& faces, const OpeningMemory& memory, const Side& side,
+                     LiquidGrid& liquid)
+{
+    const int a = side.opening.axis;
+    const double gravity = push.gravity.norm(), ofCell = push.density * gravity * dx_;
+    const double perPressure = push.fallTime * liquid.fullMass / (push.density * dx_);
+    double level = side.opening.level;
+    if (side.depth > 0.0)
+        if (const std::optional<double> out = meanOut(side, liquid)) level += std::sqrt(side.depth / gravity) * (*out - memory.mean);
+    for (std::size_t n = side.firstFace; n < side.endFace; ++n) {
+        PlaneFace& plane = planeFaces_[n];
+        const auto [block, cell] = plane.face;
+        plane.pushed = 0.0;
+        if (!(gravity > 0.0) || !isPassed(cut, liquid, plane.face, a)) continue;
+        const double impulse =
+            -side.opening.outward() * perPressure * ofCell * std::max(0.0, pressureBelow((level - plane.height) / dx_) - plane.missing);
+        const double coefficient = faces.coefficient().block(block, a)[cell], room = cut.field.room(block, a)[cell];
+        // Beyond the surface it holds against PressureBeyond, in the system against the pressure.
+        const double perMass = coefficient > 0.0 ? coefficient / (faces.ofFull() * liquid.fullMass * cut.field.open(block, a)[cell])
+                                                 : room / std::max(massOf(liquid, plane.face, a), kLeastFill * liquid.fullMass * room);
+        plane.pushed = impulse * perMass;
+        liquid.faces.velocity.block(block, a)[cell] += plane.pushed;
+    }
+}
+
+void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& faces, std::span<const OpeningMemory> memory, LiquidGrid& liquid)
+{
+    driven_ = 0.0;
+    for (const DrivenFace& driven : drivenFaces_) {
+        if (driven.by == DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
+        const bool meetsWall = driven.by == DrivenFace::By::VelocityInAir && liquid.inside.test(driven.from.block, driven.from.cell);
+        const double to = meetsWall ? 0.0 : driven.velocity;
+        double& u = liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell];
+        driven_ += 0.5 * massOf(liquid, driven.face, driven.axis) * (to - u) * (to + u);
+        u = to;
+    }
+    for (std::size_t n = 0; n < sides_.size(); ++n) {
+        const Side& side = sides_[n];
+        if (!side.opening.isInlet()) press(cut, push, faces, memory[n], side, liquid);
+        for (std::size_t f = side.firstFace; side.opening.isInlet() && f < side.endFace; ++f) {
+            const auto [block, cell] = planeFaces_[f].face;
+            planeFaces_[f].kept = liquid.faces.velocity.block(block, side.opening.axis)[cell];
+        }
+    }
+}
+
+void Openings::keepMoved(const BlockArray<double, 3>& velocity)
+{
+    for (const Side& side : sides_)
+        for (std::size_t n = side.firstFace; n < side.endFace; ++n) {
+            const auto [block, cell] = planeFaces_[n].face;
+            planeFaces_[n].moved = velocity.block(block, side.opening.axis)[cell];
+        }
+}
+
+double Openings::carry(const CutGrid& cut, const LiquidGrid& liquid, BlockArray<double, 3>& velocity) const
+{
+    double gained = 0.0;
+    for (const DrivenFace& driven : drivenFaces_) {
+        const int a = driven.axis;
+        if (driven.by != DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, a) || !isPassed(cut, liquid, driven.from, a)) continue;
+        const double to = velocity.block(driven.from.block, a)[driven.from.cell];
+        double& u = velocity.block(driven.face.block, a)[driven.face.cell];
+        gained += 0.5 * massOf(liquid, driven.face, a) * (to - u) * (to + u);
+        u = to;
+    }
+    return gained;
+}
+
+double Openings::inletWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double>& pressure, double perPressure) const
+{
+    double work = 0.0;
+    for (const Side& side : sides_) {
+        const int a = side.opening.axis;
+        for (std::size_t n = side.firstFace; side.opening.isInlet() && n < side.endFace; ++n) {
+            const PlaneFace& plane = planeFaces_[n];
+            const auto [block, cell] = plane.face;
+            const double inwards = -side.opening.outward() * liquid.faces.velocity.block(block, a)[cell];
+            work += cut.field.open(block, a)[cell] * perPressure * inwards * pressure.block(plane.inner.block)[plane.inner.cell];
+        }
+    }
+    return work;
+}
+
+double Openings::pressureWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double>& pressure, double perPressure) const
+{
+    double work = inletWork(cut, liquid, pressure, perPressure);
+    for (const Side& side : sides_)
+        for (std::size_t n = side.firstFace; !side.opening.isInlet() && n < side.endFace; ++n) {
+            const PlaneFace& plane = planeFaces_[n];
+            const int a = side.opening.axis;
+            const double now = liquid.faces.velocity.block(plane.face.block, a)[plane.face.cell];
+            work += massOf(liquid, plane.face, a) * plane.pushed * plane.moved.value_or(now);
+        }
+    return work;
+}
+
+Vec3 Openings::impulse(const CutGrid& cut, const Outcome& outcome, const LiquidOnSolids::Levelling* onSolids) const
+{
+    const LiquidGrid& liquid = outcome.liquid;
+    Vec3 sum = Vec3::Zero();
+    const auto add = [&](const CellRef& face, int axis, double impulse) {
+        sum[axis] += impulse;
+        if (onSolids != nullptr) onSolids->weightGrew(face.block, axis, face.cell, impulse);
+    };
+    for (const DrivenFace& driven : drivenFaces_) {
+        const auto [block, cell] = driven.face;
+        const int a = driven.axis;
+        if (!isPassed(cut, liquid, driven.face, a)) continue;
+        const double change = outcome.velocity.block(block, a)[cell] - liquid.unpressed.block(block, a)[cell];
+        add(driven.face, a, massOf(liquid, driven.face, a) * change);
+    }
+    for (const Side& side : sides_)
+        for (std::size_t n = side.firstFace; n < side.endFace; ++n) {
+            const PlaneFace& plane = planeFaces_[n];
+            const int a = side.opening.axis;
+            double impulse = massOf(liquid, plane.face, a) * plane.pushed;
+            if (side.opening.isInlet()) {
+                const auto [block, cell] = plane.inner;
+                const double p = outcome.pressure.block(block)[cell] + (outcome.again ? outcome.again->block(block)[cell] : 0.0);
+                impulse = -side.opening.outward() * outcome.perPressure * cut.field.open(plane.face.block, a)[plane.face.cell] * p;
+            }
+            add(plane.face, a, impulse);
+        }
+    return sum;
+}
+
+void Openings::swapAtInlets(BlockArray<double, 3>& advected)
+{
+    for (const Side& side : sides_)
+        for (std::size_t n = side.firstFace; side.opening.isInlet() && n < side.endFace; ++n)
+            std::swap(planeFaces_[n].kept, advected.block(planeFaces_[n].face.block, side.opening.axis)[planeFaces_[n].face.cell]);
+}
+
+}  // namespace sim
