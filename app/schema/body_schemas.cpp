@@ -71,6 +71,16 @@ SchemaJson sourceSchema()
                                    {"emit", listSchema(mapSchema(emission.keys, SchemaOf::Body), 1)}});
 }
 
+SchemaJson openingSchema()
+{
+    sim::KeyList keys;
+    sim::OpeningSettings values;
+    sim::visitFields(keys, values);
+    SchemaJson schema = mapSchema(keys.keys, SchemaOf::Body);
+    schema["properties"]["name"] = textSchema();
+    return schema;
+}
+
 SchemaJson obstacleSchema()
 {
     const auto keys = keysReadBy("obstacles: [{}]", [](const Node& node) { sim::readObstacles(node, {}); });
@@ -145,10 +155,9 @@ SchemaJson pieceSchema()
 SchemaJson bodyDefinitions()
 {
     const SchemaJson piece = definitionOf("motion_piece");
-    SchemaJson definitions = {{"shape", shapeSchema()},        {"rotate", rotateSchema()},
-                              {"source", sourceSchema()},      {"obstacle", obstacleSchema()},
-                              {"fabric", fabricSchema()},      {"pin", pinSchema()},
-                              {"motion_piece", pieceSchema()}, {"motion", {{"anyOf", {piece, listSchema(piece, 1)}}}}};
+    SchemaJson definitions = {{"shape", shapeSchema()},     {"rotate", rotateSchema()},      {"source", sourceSchema()},
+                              {"opening", openingSchema()}, {"obstacle", obstacleSchema()},  {"fabric", fabricSchema()},
+                              {"pin", pinSchema()},         {"motion_piece", pieceSchema()}, {"motion", {{"anyOf", {piece, listSchema(piece, 1)}}}}};
     requireOneOf({"translate", "rotate", "oscillate", "keys"}, definitions["motion_piece"]);
     SchemaJson named = definitions["motion_piece"];
     for (const char* target : {"obstacle", "group", "pin"}) named["properties"][target] = textSchema();

@@ -45,6 +45,7 @@ SchemaJson liquidSchema()
     presets.push_back("none");
     schema["properties"]["preset"]["enum"] = presets;
     schema["properties"]["sources"].update(listSchema(definitionOf("source")));
+    schema["properties"]["openings"].update(listSchema(definitionOf("opening")));
     return schema;
 }
 

@@ -151,6 +151,7 @@ void visitFields(V& v, LiquidSettings& l)
     v.integer("curvature_smoothing", l.curvatureSmoothing, 0, 1000, "Smoothing passes over the fill before its curvature is taken");
     v.integer("viscosity_substeps", l.viscositySubsteps, 1, 1000, "Parts of a step, each of which viscosity is solved for");
     v.other("sources", "Where liquid starts");
+    v.other("openings", "Faces of the domain through which it comes and goes");
 }
 
 template <class V>
@@ -194,6 +195,30 @@ void visitFields(V& v, Emission& e)
     v.vector("velocity", e.velocity, Quantity::Velocity, "Velocity of the new liquid");
 }
 
+/// Faces of the domain, by axis, the lower one first.
+enum class DomainFace { LowerX, UpperX, LowerY, UpperY, LowerZ, UpperZ };
+inline std::span<const Choice<DomainFace>> choicesOf(DomainFace)
+{
+    using F = DomainFace;
+    static constexpr Choice<F> kAll[] = {{"x-", F::LowerX}, {"x+", F::UpperX}, {"y-", F::LowerY},
+                                         {"y+", F::UpperY}, {"z-", F::LowerZ}, {"z+", F::UpperZ}};
+    return kAll;
+}
+
+template <class V>
+void visitFields(V& v, OpeningSettings& o)
+{
+    DomainFace face = static_cast<DomainFace>(2 * o.axis + (o.isUpper ? 1 : 0));
+    v.required("face", "the face of the domain that liquid passes, like face: x+");
+    v.choice("face", face, "Face of the domain");
+    o.axis = static_cast<int>(face) / 2;
+    o.isUpper = static_cast<int>(face) % 2 == 1;
+    v.numberOr("velocity", o.velocity, 0.0, Quantity::Velocity, Range::above(0.0),
+               "Mean velocity at which liquid comes in; left out: liquid goes out, and in where it is drawn");
+    v.numberOr("level", o.level, std::numeric_limits<double>::infinity(), Quantity::Length, Range::any(),
+               "Height, against gravity, up to which liquid stands beyond the face; an inlet without it fills the face");
+}
+
 /// The sections of a scene that are plain settings.
 template <class V>
 void visitFields(V& v, Settings& s)
@@ -214,7 +239,7 @@ void visitFields(V& v, Settings& s)
 template <class V>
 void describeLater(V& v)
 {
-    v.unsupported("sinks", "this version has no sinks; use domain to delete liquid outside of a shape");
+    v.unsupported("sinks", "liquid goes out through an outlet in liquid.openings; domain deletes what falls out of a shape");
 }
 
 }  // namespace sim

@@ -73,6 +73,38 @@ void checkSource(const Scene& scene, std::size_t maxBoxes, SourceSettings& sourc
     }
 }
 
+/// A layer of the domain, one cell thick, behind an opening and below its level.
+Eigen::AlignedBox3d behindOpening(const OpeningSettings& opening, const Scene& scene)
+{
+    Eigen::AlignedBox3d layer = scene.domain->bounds();
+    const int a = opening.axis;
+    const double cell = scene.settings.cell;
+    if (opening.isUpper) layer.min()[a] = layer.max()[a] - cell;
+    else layer.max()[a] = layer.min()[a] + cell;
+    if (!std::isfinite(opening.level)) return layer;
+    int up = 0;
+    scene.settings.gravity.cwiseAbs().maxCoeff(&up);
+    if (scene.settings.gravity[up] < 0.0) layer.max()[up] = std::min(layer.max()[up], opening.level);
+    else layer.min()[up] = std::max(layer.min()[up], -opening.level);
+    return layer;
+}
+
+/// Obstacles must leave something of an opening.
+void checkOpenings(const Scene& scene)
+{
+    for (const OpeningSettings& opening : scene.openings) {
+        const Eigen::AlignedBox3d layer = behindOpening(opening, scene);
+        if ((layer.sizes().array() <= 0.0).any())
+            fail(opening.where, fmt::format("liquid.openings.{}.level: is below all of the face; raise it", opening.name));
+        SourceSettings mouth;
+        mouth.shape = Shape::box(layer.center(), 0.5 * layer.sizes());
+        constexpr std::size_t kBoxes = 100'000;
+        if (estimateVolume(mouth, scene, kBoxes).isEmpty)
+            fail(opening.where, fmt::format("liquid.openings.{}: obstacles close all of the face{}; leave liquid a way to it", opening.name,
+                                            std::isfinite(opening.level) ? " below its level" : ""));
+    }
+}
+
 /// Drag and suction know one diameter of fibres.
 void checkFibres(const Node& root, const Scene& scene)
 {
@@ -92,7 +124,7 @@ void checkFibres(const Node& root, const Scene& scene)
 void checkCoupling(const Node& root, const Scene& scene)
 {
     const bool isWet = std::ranges::any_of(scene.fabrics, [](const FabricPiece& piece) { return piece.wetness > 0.0; });
-    if (scene.fabrics.empty() || (scene.sources.empty() && !isWet)) return;
+    if (scene.fabrics.empty() || (scene.sources.empty() && scene.openings.empty() && !isWet)) return;
     checkFibres(root, scene);
     const std::string& where = scene.fabrics[0].where;
     const CouplingSettings& coupling = scene.settings.coupling;
@@ -212,7 +244,10 @@ Scene readScene(const SceneFile& file)
         scene.domain = std::move(shape.shape);
         scene.domainText = std::move(shape.text);
     }
-    scene.sources = readSources(root, scene.settings, scene.fabrics.empty());
+    scene.openings = readOpenings(root, scene.settings, scene.domain);
+    const bool hasInlet = std::ranges::any_of(scene.openings, &OpeningSettings::isInlet);
+    scene.sources = readSources(root, scene.settings, scene.fabrics.empty() && !hasInlet);
+    checkOpenings(scene);
     for (SourceSettings& source : scene.sources) checkSource(scene, root.location.source->bounds.maxBoxes, source);
     for (const FabricPiece& piece : scene.fabrics) scene.notes.insert(scene.notes.end(), piece.notes.begin(), piece.notes.end());
     for (const SourceSettings& source : scene.sources) scene.notes.insert(scene.notes.end(), source.notes.begin(), source.notes.end());

@@ -52,6 +52,12 @@ void writeLiquid(SectionWriter& top, const Scene& scene)
         visitFields(w, liquid);
         if (!scene.sources.empty()) w.line("sources", "", "");
         for (const SourceSettings& source : scene.sources) writeSource(w, source);
+        if (!scene.openings.empty()) w.line("openings", "", "");
+        for (OpeningSettings opening : scene.openings) {
+            SectionWriter fields;
+            visitFields(fields, opening);
+            w.item(fmt::format("{{name: {}, {}", Node::scalar(opening.name, {}).flow(), fields.flow().substr(1)));
+        }
     });
 }
 

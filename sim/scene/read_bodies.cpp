@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sim {
 
@@ -92,6 +93,55 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     return source;
 }
 
+OpeningSettings readOpening(const Node& node, const std::string& name, const std::string& path)
+{
+    OpeningSettings opening;
+    opening.name = name;
+    opening.where = node.location.text();
+    SectionReader::read(&node, path, [&](auto& v) {
+        v.other("name", "");
+        visitFields(v, opening);
+    });
+    return opening;
+}
+
+/// What an opening needs of the domain: to be in a face of a box that is long enough.
+void checkDomain(const OpeningSettings& opening, const Node& node, const std::string& path, double cell, const std::optional<Shape>& domain)
+{
+    const std::optional<Shape::AxisBox> box = domain ? domain->axisBox() : std::nullopt;
+    if (!box || box->inside || box->round > 0.0)
+        fail(node.location,
+             path + ": is in a face of the domain, which must be a box for that, like domain: {box: {min: [0, 0, 0], max: [40, 10, 5]}}");
+    constexpr double kShortest = 8.0;
+    const double length = box->box.sizes()[opening.axis] / cell;
+    if (length < kShortest)
+        fail(node.location, fmt::format("{}: the domain is {:.3g} cells long there, and openings need {:.0f}; make it longer, or grid.cell smaller",
+                                        path, length, kShortest));
+}
+
+void checkOpening(const OpeningSettings& opening, const Node& node, const std::string& path, const Settings& settings,
+                  const std::optional<Shape>& domain)
+{
+    checkDomain(opening, node, path, settings.cell, domain);
+    if (settings.liquid.full) fail(node.location, path + ": liquid.full is a closed box; leave full out, an outlet sets the pressure");
+    const Vec3& gravity = settings.gravity;
+    const bool hasLevel = std::isfinite(opening.level);
+    if (gravity.isZero(0.0)) {
+        if (hasLevel) fail(node.location, path + ".level: without gravity liquid has no level; leave it out");
+        return;
+    }
+    if (!hasLevel) {
+        if (opening.isInlet()) return;
+        fail(node.location, path + ": needs a velocity at which liquid comes in, or the level of the liquid that it goes out to, like level: 4");
+    }
+    int up = 0;
+    if (gravity.cwiseAbs().maxCoeff(&up) != gravity.norm()) fail(node.location, path + ".level: needs gravity along an axis; turn the scene");
+    const Eigen::AlignedBox3d box = domain->bounds();
+    const double lowest = gravity[up] < 0.0 ? box.min()[up] : -box.max()[up];
+    if (!(opening.level > lowest))
+        fail(node.location, fmt::format("{}.level: is below the domain, which begins at {:.6g} cm; raise it", path, lowest));
+}
+
 ObstacleSettings readObstacle(const Node& node, const std::string& name, const std::string& path, const Settings& settings)
 {
     ObstacleSettings obstacle;
@@ -138,6 +188,24 @@ std::vector<SourceSettings> readSources(const Node& root, const Settings& settin
     }
     requireUnique(sources, path);
     return sources;
+}
+
+std::vector<OpeningSettings> readOpenings(const Node& root, const Settings& settings, const std::optional<Shape>& domain)
+{
+    std::vector<OpeningSettings> openings;
+    const std::string path = "liquid.openings";
+    const Node* list = listAt(root.find("liquid"), "openings", path, "[{face: x+, level: 4}]");
+    for (std::size_t i = 0; list && i < list->items.size(); ++i) {
+        const std::string name = nameIn(list->items[i], i, path);
+        OpeningSettings opening = readOpening(list->items[i], name, joinPath(path, name));
+        checkOpening(opening, list->items[i], joinPath(path, name), settings, domain);
+        for (const OpeningSettings& other : openings)
+            if (other.axis == opening.axis && other.isUpper == opening.isUpper)
+                fail(list->items[i].location, fmt::format("{}: {} is in that face already; choose another", joinPath(path, name), other.name));
+        openings.push_back(std::move(opening));
+    }
+    requireUnique(openings, path);
+    return openings;
 }
 
 std::vector<ObstacleSettings> readObstacles(const Node& root, const Settings& settings)

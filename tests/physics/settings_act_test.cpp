@@ -189,5 +189,26 @@ TEST(Settings, OfObstaclesMakeAnotherRun)
         EXPECT_NE(endOf(kWet, {sticky}), endOf(kWet, {sticky, change})) << change;
 }
 
+/// Faces of the domain are no parameters, as they hold for a whole run.
+TEST(Settings, KeysOfOpeningsAct)
+{
+    constexpr const char* kStream = R"(
+grid: {cell: 0.5}
+time: {dt: 5.0e-3, duration: 0.1}
+domain: {box: {min: [0, 0, 0], max: [8, 6, 2]}}
+liquid:
+  sources: [{shape: {box: {min: [0, 0, 0], max: [8, 2, 2]}}, velocity: [20, 0, 0]}]
+  openings: [{name: inlet, face: x-, velocity: 20, level: 2}, {name: outlet, face: x+, level: 2}]
+obstacles: [{name: flume, shape: {box: {min: [-4, 0, 0], max: [12, 8, 2]}}, inside: true}]
+)";
+    const std::string before = endOf(kStream, {});
+    const std::vector<std::vector<std::string>> changes = {{"liquid.openings.inlet.velocity=25"},
+                                                           {"liquid.openings.inlet.level=1.5"},
+                                                           {"liquid.openings.outlet.level=2.5"},
+                                                           {"liquid.openings.outlet.velocity=5"},
+                                                           {"liquid.openings.outlet.face=y+", "liquid.openings.outlet.level=7"}};
+    for (const std::vector<std::string>& set : changes) EXPECT_NE(before, endOf(kStream, set)) << set[0] << " changes nothing";
+}
+
 }  // namespace
 }  // namespace sim::test

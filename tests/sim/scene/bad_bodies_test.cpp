@@ -53,6 +53,70 @@ liquid:
 liquid: {sources: [{name: a.b, shape: {ball: {center: [0,0,0], radius: 1}}}]}
 )",
      "bad.yaml:2: liquid.sources.0.name: \"a.b\" may have letters, digits, _ and - only"},
+    {"OpeningWithoutFace", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to.face is missing; it is the face of the domain that liquid passes, like face: x+"},
+    {"OpeningWithoutDomain", R"(grid: {cell: 0.1}
+liquid: {openings: [{name: to, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:2: liquid.openings.to: is in a face of the domain, which must be a box for that, like domain: {box: {min: [0, 0, 0], max: [40, 10, "
+     "5]}}"},
+    {"OpeningInABall", R"(grid: {cell: 0.1}
+domain: {ball: {center: [2, 1, 1], radius: 5}}
+liquid: {openings: [{name: to, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to: is in a face of the domain, which must be a box for that, like domain: {box: {min: [0, 0, 0], max: [40, 10, "
+     "5]}}"},
+    {"OpeningsInAShortDomain", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [0.5, 2, 1]}}
+liquid: {openings: [{name: to, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to: the domain is 5 cells long there, and openings need 8; make it longer, or grid.cell smaller"},
+    {"OutletWithoutLevel", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: x+}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to: needs a velocity at which liquid comes in, or the level of the liquid that it goes out to, like level: 4"},
+    {"LevelWithoutGravity", R"(gravity: [0, 0, 0]
+grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:4: liquid.openings.to.level: without gravity liquid has no level; leave it out"},
+    {"LevelBelowTheDomain", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: x+, level: -1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to.level: is below the domain, which begins at 0 cm; raise it"},
+    {"LevelWithSlantedGravity", R"(gravity: [1, -900, 0]
+grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:4: liquid.openings.to.level: needs gravity along an axis; turn the scene"},
+    {"OpeningsInOneFace", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: a, face: x+, level: 1}, {name: b, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.b: a is in that face already; choose another"},
+    {"OpeningThatIsClosed", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: x+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+obstacles: [{name: box, inside: true, shape: {box: {min: [0, 0, 0], max: [3, 2, 1]}}}]
+)",
+     "bad.yaml:3: liquid.openings.to: obstacles close all of the face below its level; leave liquid a way to it"},
+    {"LevelBelowAllOfTheFace", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: y+, level: 1}], sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to.level: is below all of the face; raise it"},
+    {"OpeningOfAFullBox", R"(grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid: {openings: [{name: to, face: x+, level: 1}], full: true, sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]}
+)",
+     "bad.yaml:3: liquid.openings.to: liquid.full is a closed box; leave full out, an outlet sets the pressure"},
     {"ShapeUnknown", R"(grid: {cell: 0.1}
 liquid:
   sources:

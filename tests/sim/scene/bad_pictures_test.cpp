@@ -34,7 +34,7 @@ coupling: {cohesion: {strength: 1, fabric: false, obstacle: false}}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 sinks: []
 )",
-     "bad.yaml:3: sinks: this version has no sinks; use domain to delete liquid outside of a shape"},
+     "bad.yaml:3: sinks: liquid goes out through an outlet in liquid.openings; domain deletes what falls out of a shape"},
     {"SceneName", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 scene: {name: Dam Break!}

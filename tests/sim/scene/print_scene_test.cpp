@@ -190,6 +190,18 @@ TEST(PrintScene, SaysUnitsAndHelp)
     EXPECT_NE(std::string::npos, text.find("cm^3 of liquid"));
 }
 
+TEST(PrintScene, OpeningsReadBack)
+{
+    expectRoundTrip(sim::sceneFileFromText(R"(
+grid: {cell: 0.1}
+domain: {box: {min: [0, 0, 0], max: [4, 2, 1]}}
+liquid:
+  sources: [{shape: {box: {min: [0, 0, 0], max: [4, 1, 1]}}}]
+  openings: [{name: from, face: x-, velocity: 20, level: 1}, {face: z+, velocity: 3.5}, {name: to, face: x+, level: 1.25}]
+)",
+                                           "openings.yaml"));
+}
+
 TEST(PrintScene, FormulasReadBack)
 {
     expectRoundTrip(sim::sceneFileFromText(R"(

@@ -1,0 +1,137 @@
+#include "sim/scene/load_scene.h"
+#include "sim/state_hash.h"
+#include "tests/physics/flume.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <numeric>
+
+namespace sim::test {
+namespace {
+
+/// All that changes momentum and energy is booked, whatever passes.
+TEST(Openings, BalancesClose)
+{
+    for (Flume flume : flumes()) {
+        if (flume.transfer.method == TransferMethod::Flip) continue;  // has no modal energy to book
+        flume.roof = 12.0;
+        flume.level = 5.0;
+        flume.depth = 6.0;
+        Simulation simulation(flume.scene());
+        simulation.bookEnergy();
+        double last = simulation.energies().total(), unbooked = 0.0, kinetic = 0.0;
+        for (int n = 0; n < 30; ++n) {
+            const ClosedStep closed(simulation);
+            EXPECT_LT(closed.error, kExact * closed.exchanged) << flume.text() << ", step " << n;
+            const EnergyChanges& changes = *closed.report.energyChanges;
+            const double now = closed.report.energies.total();
+            unbooked = std::max(unbooked, std::abs(now - last - std::accumulate(changes.of.begin(), changes.of.end(), 0.0)));
+            kinetic = std::max(kinetic, closed.report.energies.kinetic);
+            EXPECT_LE(changes[EnergyChange::Pressure], 1.0e-4 * kinetic) << flume.text() << ", step " << n;
+            last = now;
+        }
+        EXPECT_LT(unbooked, 1.0e-6 * kinetic) << flume.text();
+    }
+}
+
+/// A thick drop spreads into an outlet, against the liquid beyond it: it has no energy that is not from there or from its weight. What pushes the plane
+/// acts before viscosity (Openings::keepMoved).
+TEST(Openings, AThickDropGainsNothing)
+{
+    constexpr const char* kDrop = R"(
+grid: {cell: 0.1489}
+time: {dt: 2.205e-3, duration: 0.06, mode: adaptive, cfl: 0.417, integrator: plain}
+obstacles: [{name: tank, inside: true, shape: {cylinder: {center: [0, 4.468, 0], radius: 1.413, half: 4.468}}}]
+liquid:
+  viscosity: 128
+  solve_viscosity: true
+  surface_order: 1
+  wall_friction: 0.234
+  surface_tension: 92.2
+  surface_tension_force: true
+  sources:
+    - name: drop
+      shape: {rounded_box: {center: [-0.1975, 0.3632, -0.1536], half: [0.04931, 0.07074, 0.08098], round: 0.04813}, rotate: {axis: [-0.6726, -0.6676, 0.3192], angle: 8.233}}
+      velocity: [0.225, 0.2335, 0.02729]
+      fill: {pattern: poisson, seed: 339}
+  openings: [{name: outlet, face: x-, level: 0.6843}]
+domain: {box: {min: [-0.7089, 0, -0.7089], max: [0.7089, 8.155, 0.7089]}}
+)";
+    for (const char* method : {"apic", "flip", "polypic"}) {
+        SceneFile file = sceneFileFromText(kDrop, "drop.yaml", {.set = {std::string("transfer.method=") + method}});
+        Simulation simulation(readScene(file));
+        simulation.bookEnergy();
+        const double start = simulation.energies().total();
+        double paid = 0.0, kinetic = 0.0, gained = 0.0;
+        while (simulation.state().time < 0.06) {
+            const StepReport report = simulation.step(0.06);
+            paid += (*report.energyChanges)[EnergyChange::Sources];
+            kinetic = std::max(kinetic, report.energies.kinetic);
+            gained = std::max(gained, report.energies.total() - start - paid);
+        }
+        EXPECT_GT(simulation.state().ledger.emittedMass, 0.0);
+        EXPECT_LT(gained, 0.05 * kinetic) << method;
+    }
+}
+
+/// The floor bears the weight of what is between the planes, openings that of what is beyond, and what they push is not from solids: of what these
+/// get all but a little is explained.
+TEST(Openings, SolidsGetNothingOfOpenings)
+{
+    for (Flume flume : {flumes()[0], flumes()[3], flumes()[4]}) {
+        flume.roof = 10.0;
+        flume.depth = flume.level = 6.0;
+        Simulation simulation(flume.scene());
+        const double between = (flume.length - 4.0) / flume.length, weight = between * massOfLiquid(simulation) * kEarthGravity;
+        Vec3 mean = Vec3::Zero();
+        for (int n = 0; n < 40; ++n) {
+            simulation.step(1.0e9);
+            const Forces& forces = simulation.forces();
+            EXPECT_LT(forces.balance.borne.norm(), 5.0e-3 * forces.dt * weight) << flume.text() << ", step " << n;
+            if (n >= 20) mean += simulation.forces().obstacles[0].liquid.linear / (20.0 * simulation.forces().dt * weight);
+        }
+        EXPECT_NEAR(mean[1], -1.0, 0.03) << flume.text();
+        EXPECT_NEAR(mean[flume.axis], 0.0, 0.01) << flume.text();
+    }
+}
+
+TEST(Openings, GoOnTheSameFromAnyStateAndOnAnyNumberOfThreads)
+{
+    Flume flume;
+    flume.roof = 12.0;
+    flume.level = 5.0;
+    flume.depth = 6.0;
+    const Scene scene = flume.scene();
+    std::vector<std::uint64_t> hashes;
+    for (const int threads : {1, 2, 8}) {
+        const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+        oneapi::tbb::task_arena(threads).execute([&] {
+            Simulation whole(scene);
+            runFor(0.04, whole);
+            Simulation resumed(scene, whole.state());
+            runFor(0.04, whole);
+            runFor(0.04, resumed);
+            hashes.push_back(stateHash(whole.state()));
+            hashes.push_back(stateHash(resumed.state()));
+        });
+    }
+    for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+/// A box without air that an inlet leads into is told, not crammed.
+TEST(Openings, AnInletIntoAFullClosedBoxIsTold)
+{
+    Flume flume;
+    flume.hasGravity = false;
+    Scene scene = flume.scene();
+    scene.obstacles[0] = obstacle("box", flume.box({-10.0, 0.0, 0.0}, {flume.length - 4.0, flume.roof, flume.width}).inverted());
+    scene.sources[0].shape = flume.box({0.0, 0.0, 0.0}, {flume.length - 4.0, flume.depth, flume.width});
+    scene.openings.pop_back();
+    Simulation simulation(scene);
+    EXPECT_THROW(runFor(0.1, simulation), RunError);
+}
+
+}  // namespace
+}  // namespace sim::test
