@@ -98,7 +98,7 @@ double fastestPrescribed(const sim::Motion& motion, const Points& points, double
     return farthest * kParts / duration;
 }
 
-/// Largest speed of the corners of boxes around solids that move, and of the vertices of fabric that pins lead [cm/s].
+/// Largest speed of the corners of boxes around solids that move, of the vertices of fabric that pins lead and of what openings let in [cm/s].
 double fastestPrescribed(const sim::Scene& scene, double duration)
 {
     double fastest = 0.0;
@@ -114,6 +114,12 @@ double fastestPrescribed(const sim::Scene& scene, double duration)
             for (int v : pins.vertices) led.push_back(piece.points[v]);
             fastest = std::max(fastest, fastestPrescribed(pins.motion, led, duration));
         }
+    const double gravity = scene.settings.gravity.norm();
+    for (const sim::OpeningSettings& opening : scene.openings) {
+        // From its level liquid may fall through all of the domain.
+        const double fall = std::isfinite(opening.level) ? std::abs(opening.level) + scene.domain->bounds().sizes().maxCoeff() : 0.0;
+        fastest = std::max(fastest, opening.isInlet() ? opening.velocity : std::sqrt(2.0 * gravity * fall));
+    }
     return fastest;
 }
 

@@ -36,12 +36,12 @@ std::string randomTime(RandomSource& random, const RandomPile& pile, double dt)
                        cfl, dt / 300.0, integrator, lifted);
 }
 
-std::string randomGravity(RandomSource& random)
+sim::Vec3 randomGravity(RandomSource& random)
 {
     constexpr double kEarth = 981.0;
     const double size = random.chance(0.1) ? 0.0 : random.chance(0.7) ? kEarth : random.acrossScales(1.0, 1.0e4);
     const sim::Vec3 direction = random.chance(0.8) ? sim::Vec3(0.0, -1.0, 0.0) : random.direction();
-    return fmt::format("gravity: {}\n", listText(size * direction));
+    return size * direction;
 }
 
 std::string randomTransfer(RandomSource& random)
@@ -150,6 +150,27 @@ std::string randomTank(RandomSource& random, double cell)
     return fmt::format("  - {{name: tank, inside: true, shape: {}}}\n", shape);
 }
 
+/// A stream through the liquid, or an outlet that it leaves by, in faces of a domain that is closer around the pile.
+/// @param domain  out: that domain
+std::string randomOpenings(RandomSource& random, const RandomPile& pile, bool hasGravity, std::string& domain)
+{
+    const double cell = pile.cell, half = random.between(4.2, 6.0) * cell, height = pile.height + random.between(4.0, 30.0) * cell;
+    domain = fmt::format("{{box: {{min: [{0:.4g}, 0, {0:.4g}], max: [{1:.4g}, {2:.4g}, {1:.4g}]}}}}", -half, half, height);
+    const auto level = [&] { return hasGravity ? fmt::format(", level: {:.4g}", random.between(0.5, 6.0) * cell) : std::string(); };
+    std::string text = "  openings:\n";
+    const std::string_view axis = random.oneOf({"x", "z"});
+    const bool isInverted = random.chance(0.5);
+    if (random.chance(0.7))
+        text += fmt::format("    - {{name: inlet, face: {}{}, velocity: {:.3g}{}}}\n", axis, isInverted ? "+" : "-", random.acrossScales(1.0, 100.0),
+                            random.chance(0.7) ? level() : "");
+    text += fmt::format("    - {{name: outlet, face: {}{}{}}}\n",
+                        random.chance(0.8) ? axis
+                        : axis == "x"      ? "z"
+                                           : "x",
+                        isInverted ? "-" : "+", level());
+    return text;
+}
+
 /// Small pictures: of the start, the middle and all but the end.
 std::string pictures(const RandomPile& pile, const std::string& domain)
 {
@@ -166,7 +187,8 @@ std::string randomSceneName(std::uint64_t seed, int number) { return fmt::format
 
 RandomScene randomScene(std::uint64_t seed, int number)
 {
-    constexpr double kPublishedStep = 2.0e-4;  // [s]
+    constexpr double kPublishedStep = 2.0e-4;        // [s]
+    constexpr std::uint64_t kOpenings = 1ull << 40;  // numbers of their own: scenes without openings are those that they were
     RandomSource random(seed, static_cast<std::uint64_t>(number));
     const double cell = random.acrossScales(0.08, 0.5), dt = kPublishedStep * random.acrossScales(0.5, 20.0);
     RandomPile pile{.cell = cell, .duration = dt * random.whole(30, 80), .height = 0.5 * cell};
@@ -175,7 +197,8 @@ RandomScene randomScene(std::uint64_t seed, int number)
     std::string text = fmt::format("drench: 1\nscene: {{name: {}}}\n", randomSceneName(seed, number));
     text += randomTime(random, pile, dt);
     text += fmt::format("grid: {{cell: {:.4g}}}\n", cell);
-    text += randomGravity(random);
+    const sim::Vec3 gravity = randomGravity(random);
+    text += fmt::format("gravity: {}\n", listText(gravity));
     text += randomTransfer(random);
     RandomScene scene;
     std::string obstacles;
@@ -188,10 +211,14 @@ RandomScene randomScene(std::uint64_t seed, int number)
         text += randomFabricSettings(random);
         text += "fabrics:\n" + randomFabrics(random, pile);
     }
-    if (cast.hasLiquid) text += randomLiquid(random, pile, cast.hasTank);
-    if (cast.hasFabric && cast.hasLiquid) text += randomCoupling(random);
     const double far = 60.0 * cell;
-    scene.text = text + pictures(pile, fmt::format("{{box: {{center: [0, 0, 0], half: {}}}}}", listText({far, far, far})));
+    std::string domain = fmt::format("{{box: {{center: [0, 0, 0], half: {}}}}}", listText({far, far, far}));
+    if (cast.hasLiquid) text += randomLiquid(random, pile, cast.hasTank);
+    RandomSource ofOpenings(seed + kOpenings, static_cast<std::uint64_t>(number));
+    const bool hasLevel = gravity.isZero(0.0) || gravity.cwiseAbs().maxCoeff() == gravity.norm();
+    if (cast.hasLiquid && hasLevel && ofOpenings.chance(0.25)) text += randomOpenings(ofOpenings, pile, !gravity.isZero(0.0), domain);
+    if (cast.hasFabric && cast.hasLiquid) text += randomCoupling(random);
+    scene.text = text + pictures(pile, domain);
     return scene;
 }
 
