@@ -3,7 +3,7 @@
 #include "sim/transfer/contraction.h"
 #include "sim/transfer/gather.h"
 
-// Where particles go in G2P (liquid/README.md, Reflection and Volume): along what they gather, by the midpoint rule, and by displacements.
+// Where particles go in G2P: along what they gather, by the midpoint rule (liquid/README.md, Reflection), and by the displacements of the volume.
 
 namespace sim {
 
