@@ -216,7 +216,9 @@ RandomScene randomScene(std::uint64_t seed, int number)
     if (cast.hasLiquid) text += randomLiquid(random, pile, cast.hasTank);
     RandomSource ofOpenings(seed + kOpenings, static_cast<std::uint64_t>(number));
     const bool hasLevel = gravity.isZero(0.0) || gravity.cwiseAbs().maxCoeff() == gravity.norm();
-    if (cast.hasLiquid && hasLevel && ofOpenings.chance(0.25)) text += randomOpenings(ofOpenings, pile, !gravity.isZero(0.0), domain);
+    // A closed vessel has none: what comes in beside it or over it would count as escaped.
+    if (cast.hasLiquid && hasLevel && !scene.vessel && ofOpenings.chance(0.25))
+        text += randomOpenings(ofOpenings, pile, !gravity.isZero(0.0), domain);
     if (cast.hasFabric && cast.hasLiquid) text += randomCoupling(random);
     scene.text = text + pictures(pile, domain);
     return scene;
