@@ -1,13 +1,17 @@
 #include "sim/transfer/gather.h"
 
 #include "sim/core/parallel.h"
-#include "sim/transfer/gather_paths.h"
+#include "sim/transfer/contraction.h"
 #include "sim/transfer/mode_window.h"
 #include "sim/transfer/reference.h"
 
 namespace sim {
 
 namespace {
+
+struct GatherTile {
+    alignas(64) double v[kAxes][kTileSize];
+};
 
 void loadTile(const BlockArray<double, 3>& velocity, const BlockGrid& grid, int block, const OccupiedBox& box, GatherTile& tile)
 {
@@ -20,9 +24,31 @@ void loadTile(const BlockArray<double, 3>& velocity, const BlockGrid& grid, int 
     });
 }
 
+/// Everything the packs of one block share.
+struct Context {
+    const GatherSettings& settings;
+    Particles& particles;
+    GatherScratch& scratch;
+    Vec3 origin;
+    double dx;
+    const GatherTile& tile;              ///< tile of the velocities whose modes are gathered
+    const GatherTile& moving;            ///< tile of the velocities that the particles move with
+    const GatherTile* flipTile;          ///< tile of the old velocities, or null
+    const GatherTile* displacementTile;  ///< tile of the displacements, or null
+    int modes;                           ///< N_r
+    Vec3 frame;                          ///< velocity of the frame in which particles move by the midpoint rule [cm/s]
+};
+
 struct LaneSums {
     Pack momentum[3] = {broadcast(0.0), broadcast(0.0), broadcast(0.0)};
     Pack kinetic = broadcast(0.0), modal = broadcast(0.0), strain = broadcast(0.0), maxSpeedSquared = broadcast(0.0), maxPathSquared = broadcast(0.0);
+};
+
+/// Up to 8 particles of one cell.
+struct Batch {
+    int first, count;
+    int node;         ///< node of the tiles where their stencils begin
+    bool atMidpoint;  ///< whether they move by the midpoint rule
 };
 
 /// Gather one component of a batch: monomials, in c and in the particles' rows.
@@ -66,6 +92,37 @@ template <int kAxis>
     return a == kAxis ? select(in >= 0.5, in - 1.0, in) : in - 0.5;
 }
 
+/// x += the displacements on the faces, interpolated at x.
+[[gnu::noinline]] void displace(const Context& ctx, int node, Pack (&x)[3])
+{
+    Operators<1> op[3];
+    for (int a = 0; a < kAxes; ++a) {
+        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        setOperators<1, false>(inCells - floorPack(inCells), op[a]);
+    }
+    unroll<3>([&](auto a) {
+        Coefficients<1> c;
+        contract<a, ModeSet<1>>(ctx.displacementTile->v[a] + node, op, c);
+        x[a] += c[0][0][0];
+    });
+}
+
+/// Velocities along the paths of 8 particles at x by the midpoint rule: out of line, for the others pay nothing.
+[[gnu::noinline]] void findPaths(const Context& ctx, int node, const Pack (&x)[3], Pack (&path)[3])
+{
+    Operators<2> op[3];
+    for (int a = 0; a < kAxes; ++a) {
+        const Pack inCells = (x[a] - ctx.origin[a]) * (1.0 / ctx.dx);
+        setOperators<2, false>(inCells - floorPack(inCells), op[a]);
+    }
+    Coefficients<2> c[3];
+    unroll<3>([&](auto a) { contract<a, ModeSet<4>>(ctx.moving.v[a] + node, op, c[a]); });
+    const double half = 0.5 * ctx.settings.dt / ctx.dx;
+    Pack past[3];
+    for (int a = 0; a < kAxes; ++a) past[a] = c[a][0][0][0] - ctx.frame[a];
+    for (int a = 0; a < kAxes; ++a) path[a] = c[a][0][0][0] + half * (c[a][1][0][0] * past[0] + c[a][0][1][0] * past[1] + c[a][0][0][1] * past[2]);
+}
+
 [[gnu::always_inline]] inline Pack squaredNorm(const Pack (&v)[3]) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 constexpr int kMostDirect = 8;  ///< modes; more leave through a window
@@ -95,7 +152,9 @@ template <class Set, int kModes, bool kFold, class Rows>
     const PackMask lanes = firstLanes(n);
     const Pack zero = broadcast(0.0), mass = select(lanes, loadPack(particles.mass.data() + s), zero);
     Pack path[3];
-    findPaths<Set>(ctx, batch, x, c, path);
+    if (batch.atMidpoint) findPaths(ctx, node, x, path);
+    else
+        for (int a = 0; a < kAxes; ++a) path[a] = meanVelocity<Set>(c[a]);
     if (ctx.settings.atMidpoint != nullptr) sums.maxPathSquared = maxPack(sums.maxPathSquared, select(lanes, squaredNorm(path), zero));
     if (ctx.displacementTile != nullptr) displace(ctx, node, x);
     Pack speedSquared = zero, xi[3];
