@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace sim {
 
@@ -46,13 +45,14 @@ struct OpenCube {
     Vec3 moment;   ///< [-]
 };
 
+/// A cube of which a part may lie in solids.
 struct Cube {
     Vec3 middle;
     double edge;   ///< [cm]
     double reach;  ///< as far seams are looked across [cm]
 };
 
-/// Of the eight halves of a cube, relative to its own [edges].
+/// Middle of one of the eight cubes of half the edge in a cube, relative to its own middle [edges].
 Vec3 middleOfHalf(int n) { return 0.25 * Vec3(n & 1 ? 1.0 : -1.0, n & 2 ? 1.0 : -1.0, n & 4 ? 1.0 : -1.0); }
 
 /// What is open of a cube that a plane cuts, so far from its middle.
@@ -74,10 +74,11 @@ bool isPlane(const Obstacles& obstacles, const NearSurface& surface, const Cube&
     return true;
 }
 
+/// Volume outside of solids in a cube.
 /// @param halvings  of the edge, at most, where surfaces that meet at an edge or bend within the cube cut it
 OpenCube openOf(const Obstacles& obstacles, const Cube& cube, int halvings)
 {
-    constexpr double kUneven = 0.05;
+    constexpr double kUneven = 0.05;  // [edges]
     const NearSurface surface = surfaceAcrossSeams(obstacles, cube.middle, cube.reach);
     if (std::abs(surface.distance) >= 0.5 * std::sqrt(3.0) * cube.edge) return {surface.distance > 0.0 ? 1.0 : 0.0, Vec3::Zero()};
     if (halvings == 0 || isPlane(obstacles, surface, cube, kUneven)) return cutByPlane(surface.normal, surface.distance, cube.edge);
@@ -94,7 +95,7 @@ OpenCube openOf(const Obstacles& obstacles, const Cube& cube, int halvings)
 /// The parts of a cell near a surface. Where that is one plane it is looked for once.
 void findOpenParts(const Obstacles& obstacles, const Cube& cell, const Vec3i& first, OpenParts& open)
 {
-    constexpr double kUneven = 1.0e-6;
+    constexpr double kUneven = 1.0e-6;  // [edges]
     constexpr int kMostHalvings = 2;
     const NearSurface surface = surfaceAcrossSeams(obstacles, cell.middle, cell.reach);
     const bool isOnePlane = isPlane(obstacles, surface, cell, kUneven);
