@@ -10,16 +10,6 @@ namespace {
 
 constexpr double kSlowness = 100.0;  ///< time of the mean of what goes out, relative to that of a long wave over its depth [-]
 
-/// Pressure in the middle of a cell so many cells below a level, relative to that of one cell of liquid: what the faces above it weigh, which bear
-/// what their B-splines have below the level (surface_weight.h). More than a cell below, it is the depth.
-double pressureBelow(double cells)
-{
-    if (cells >= 1.0) return cells;
-    double sum = 0.0;
-    for (double face = cells - 0.5; face > -1.5; face -= 1.0) sum += shareBelow(face);
-    return sum;
-}
-
 /// Does a face carry liquid, and no solid close it?
 bool isPassed(const CutGrid& cut, const LiquidGrid& liquid, const CellRef& face, int axis)
 {
@@ -102,7 +92,7 @@ void Openings::press(const CutGrid& cut, const Push& push, const PressureFaces& 
         plane.pushed = 0.0;
         if (!(gravity > 0.0) || !isPassed(cut, liquid, plane.face, a)) continue;
         const double impulse =
-            -side.opening.outward() * perPressure * ofCell * std::max(0.0, pressureBelow((level - plane.height) / dx_) - plane.missing);
+            -side.opening.outward() * perPressure * ofCell * std::max(0.0, depthOfPressure((level - plane.height) / dx_) - plane.missing);
         const double coefficient = faces.coefficient().block(block, a)[cell], room = cut.field.room(block, a)[cell];
         // Beyond the surface it holds against PressureBeyond, in the system against the pressure.
         const double perMass = coefficient > 0.0 ? coefficient / (faces.ofFull() * liquid.fullMass * cut.field.open(block, a)[cell])

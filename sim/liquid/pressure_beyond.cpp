@@ -10,7 +10,7 @@ namespace sim {
 
 namespace {
 
-constexpr double kSteepest = 0.5;  ///< slope that the surface is taken to have at most [-]
+constexpr double kSteepest = 0.5;  ///< slope, from that at rest, that the surface is taken to have at most [-]
 
 /// Keeps what there is, which is 0, and makes what is new so.
 template <class T, int kKinds>
@@ -50,6 +50,7 @@ void PressureBeyond::begin(int blocks, const Vec3& gravityStep)
 {
     fall_ = gravityStep.cwiseAbs().maxCoeff(&axis_);
     up_ = gravityStep[axis_] < 0.0 ? 1 : -1;
+    tilt_ = gravityStep / fall_;
     resizeZero(impulse_, blocks);
     resizeZero(level_, blocks);
     resizeZero(handed_, blocks);
@@ -57,9 +58,8 @@ void PressureBeyond::begin(int blocks, const Vec3& gravityStep)
     isPushed_.assign(static_cast<std::size_t>(blocks) + 1, 0);
 }
 
-void PressureBeyond::bear(int axis, const CellRef& cell, double impulse, double level)
+void PressureBeyond::bear(const CellRef& cell, double impulse, double level)
 {
-    if (axis != axis_) return;
     impulse_.block(cell.block)[cell.cell] = impulse;
     level_.block(cell.block)[cell.cell] = level;
     std::atomic_ref(hasAny_[cell.block]).store(1, std::memory_order_relaxed);
@@ -83,7 +83,8 @@ void PressureBeyond::pushRow(const Faces& faces, int block, int axis, int j, int
         counts &= rowBits(faces.bare->block(block, axis), j, k);
         hands &= counts & rowBits(up_ > 0 ? bits.below(*faces.bare, axis, axis_, k) : bits.above(*faces.bare, axis, axis_, k), j);
     }
-    const Pack least = broadcast(-kSteepest), slope = maxPack(-maxPack(before - own, least), least), slid = -fall_ * slope;
+    const Pack least = broadcast(-kSteepest), tilt = broadcast(tilt_[axis]);
+    const Pack slope = tilt + maxPack(-maxPack(before - own + tilt, least), least), slid = -fall_ * slope;
     const Pack pushed = -step * room / maxPack(mass, kLeastFill * faces.liquid.fullMass * room);
     const Pack change = select(counts, select(hands, slid, pushed), zero);
     storePack(handed_.block(block, axis) + row, select(hands, mass * slid + room * step, zero));

@@ -15,10 +15,10 @@ class PressureBeyond {
  public:
     /// @param gravityStep  velocity that weight has given to all faces in this step [cm/s]
     void begin(int blocks, const Vec3& gravityStep);
-    /// A cell bears the face above it, if this is normal to the axis that gravity is nearest to; the face has no weight any more.
+    /// A cell bears the face above it, which is normal to the axis that gravity is nearest to and has no weight any more.
     /// @param impulse  what the cell's pressure does in this step to a face that nothing closes [g cm/s]
     /// @param level    height of the surface there above a plane that lies so many cells below the cell, more than 0 [cells]
-    void bear(int axis, const CellRef& cell, double impulse, double level);
+    void bear(const CellRef& cell, double impulse, double level);
     /// Pushes the faces at the sides of columns. Those between two such cells have more mass than the pressure there is of: they get what the slope
     /// of the surface asks for, the rest of it from the faces below them.
     /// @param told  of what each face, and the solids at it, get
@@ -39,6 +39,7 @@ class PressureBeyond {
 
     int axis_ = 1, up_ = 1;                        ///< axis that gravity is nearest to, and the direction along it against gravity
     double fall_ = 0.0;                            ///< what weight makes of velocities along it [cm/s]
+    Vec3 tilt_ = Vec3::Zero();                     ///< slopes along the axes of a surface at rest [-]
     BlockArray<double> impulse_, level_;           ///< of each cell, as by bear(); 0 between steps
     BlockArray<double, 3> handed_;                 ///< what a face gets from the one below it [g cm/s]; 0 between steps
     std::vector<std::uint8_t> hasAny_, isPushed_;  ///< whether each block has such cells, and faces that they push

@@ -4,6 +4,9 @@
 #include "sim/liquid/liquid_on_solids.h"
 #include "sim/liquid/pressure_beyond.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sim {
 
 /// Weight of the liquid's surface layer without the noise of the particles' places.
@@ -23,10 +26,28 @@ namespace sim {
 void levelWeight(const CutGrid& cut, const HeldBodies& bodies, const Vec3& gravityStep, LiquidGrid& liquid, LiquidOnSolids* onSolids,
                  PressureBeyond& beyond);
 
-/// Share of the mass of even liquid below a level that a face's quadratic B-spline, so many cells below it, has of its own [-].
-double shareBelow(double cells);
+/// Depth [cells] of which even liquid has the pressure in a cell whose middle is so many cells below its level: that of its middle, rounded off
+/// within a cell of the level, by which the differences of neighbours are what quadratic B-splines of faces have below the level.
+double depthOfPressure(double cells);
+
+/// Weight of faces of one axis amid even liquid: the difference of its pressure from cell to cell, relative to that amid the liquid.
+class EvenWeight {
+ public:
+    /// @param slope  gravity along the axis relative to that along the axis that it is nearest to, -1 to 1 [-]
+    explicit EvenWeight(double slope) : half_(0.5 * std::clamp(std::abs(slope), 1e-3, 1.0)) {}
+
+    /// Share of its weight that a face has, so many cells below the level along the axis that gravity is nearest to [-].
+    double share(double cells) const { return (depthOfPressure(cells + half_) - depthOfPressure(cells - half_)) / (2.0 * half_); }
+    /// Derivative of the share [1/cell].
+    double slope(double cells) const;
+
+ private:
+    double half_;  ///< half of what the depth changes by from cell to cell; 1/2 where gravity is along the axis [cells]
+};
 
 /// Faces that a column of the surface layer may have. A plane surface has at most four: two cells that are not deep, and the surface's own.
 inline constexpr int kSurfaceColumn = 5;
+/// With gravity between the axes splines reach three cells further per slope of the surface, which is at most the root of two.
+inline constexpr int kMostSurfaceColumn = kSurfaceColumn + 5;
 
 }  // namespace sim

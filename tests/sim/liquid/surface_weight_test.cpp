@@ -123,6 +123,29 @@ TEST(SurfaceWeight, ColumnsThatWeighTheSameStayAtRest)
     }
 }
 
+/// Whatever the direction of gravity, what faces of even liquid weigh are differences of one pressure: no loop of faces turns the liquid. Columns of them
+/// weigh what is below the level.
+TEST(SurfaceWeight, OfEvenLiquidTurnsNothing)
+{
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const EvenWeight upright(1.0);
+    for (int n = 0; n < 500; ++n) {
+        const double slope = n < 20 ? 1.0e-3 * n : unit(random);
+        const EvenWeight aside(slope);
+        // The level over the middle of the lower left of four cells in a square, above it; faces between them are at half integers.
+        const double level = 3.0 * unit(random);
+        const double left = upright.share(level - 0.5), right = upright.share(level + slope - 0.5);
+        const double low = slope * aside.share(level + 0.5 * slope), high = slope * aside.share(level + 0.5 * slope - 1.0);
+        EXPECT_NEAR(left + low, right + high, 1.0e-6 * std::abs(slope)) << "slope " << slope << ", level " << level;
+        double sum = 0.0;
+        for (int face = 0; face < 9; ++face) sum += aside.share(level + 4.5 - face);
+        EXPECT_NEAR(sum, level + 5.0, 1.0e-12) << "slope " << slope << ", level " << level;
+        const double h = 1.0e-5;
+        EXPECT_NEAR(aside.slope(level), (aside.share(level + h) - aside.share(level - h)) / (2.0 * h), 1.0e-4) << "slope " << slope;
+    }
+}
+
 TEST(SurfaceWeight, OfFreeLiquidIsLeftWhereItIs)
 {
     std::mt19937 random(22);
