@@ -15,6 +15,7 @@ namespace {
 constexpr int kRepeats = 2;             ///< the second for edges, and for distances that are only bounds
 constexpr double kAcrossSeams = 2.0;    ///< as far a way out of solids that touch is looked for [cells]
 constexpr int kContacts = 5;            ///< of a particle in one step: a corner has three surfaces, round ones are met again
+constexpr int kAhead = 3;               ///< cells whose particles are fetched before their turn
 constexpr double kResolution = 5.0e-3;  ///< of paths: thinner walls may be missed [cells]
 
 /// The nearest place outside of all solids, a little in front.
@@ -135,13 +136,67 @@ PushOutTotals keepOut(const Obstacles& obstacles, double dx, const std::array<Al
     return pushed;
 }
 
-/// Could a particle that has gone straight from its place before to where it is have met a solid, if none comes nearer than `clear` to a point?
-/// @param clear  divided by the steepest slope of distances [cm]
-bool mayMeet(const std::array<AlignedArray<double>, kAxes>* before, const LiquidParticles& particles, std::size_t p, const Vec3& point, double clear)
+/// A ball without solids.
+struct ClearBall {
+    Vec3 center;
+    double radius;  ///< [cm]
+
+    bool holds(const std::array<AlignedArray<double>, kAxes>& x, std::size_t p) const
+    {
+        return radius > 0.0 && (Vec3(x[0][p], x[1][p], x[2][p]) - center).squaredNorm() < radius * radius;
+    }
+};
+
+/// The largest ball around the middle of a cell, or of one beside it where solids rest, that no solid reaches. That of a cell in front of a wall leaves
+/// of the cell at the wall a film only.
+/// @param sweep  as far solids have moved near the block in this step [cm]
+ClearBall clearAround(const CutGrid& cut, int block, const Vec3i& cell, double sweep)
 {
-    const auto squareFrom = [&](const std::array<AlignedArray<double>, kAxes>& x) { return (Vec3(x[0][p], x[1][p], x[2][p]) - point).squaredNorm(); };
-    const double farthest = std::max(squareFrom(particles.x), before == nullptr ? 0.0 : squareFrom(*before));
-    return !(clear > 0.0 && farthest < clear * clear);
+    const double dx = cut.grid.dx;
+    const Vec3 center = cut.grid.lowerCorner(block) + dx * (cell.cast<double>() + Vec3::Constant(0.5));
+    if (!cut.field.nearSolid(block)) return {center, 0.0};
+    ClearBall largest{center, cut.field.centerDistance(block)[cellInBlock(cell.x(), cell.y(), cell.z())] - sweep};
+    for (int a = 0; a < kAxes && !cut.obstacles.anyMoving(); ++a)
+        for (const double side : {-1.0, 1.0}) {
+            const Vec3i at = cell + static_cast<int>(side) * Vec3i::Unit(a);
+            const CellRef beside = cellNear(cut.grid, block, at.x(), at.y(), at.z());
+            if (beside.block == cut.grid.count()) continue;
+            const double radius = cut.field.centerDistance(beside.block)[beside.cell];
+            if (radius > largest.radius) largest = {center + side * dx * Vec3::Unit(a), radius};
+        }
+    largest.radius /= cut.obstacles.steepest();
+    return largest;
+}
+
+/// Both ends of the particles' straight ways.
+struct Places {
+    const std::array<AlignedArray<double>, kAxes>* before;  ///< null: they have no ways
+    const std::array<AlignedArray<double>, kAxes>& now;
+
+    bool areIn(const ClearBall& ball, std::size_t p) const { return ball.holds(now, p) && (before == nullptr || ball.holds(*before, p)); }
+    /// Have those of a particle, and of some after it, in the cache soon: they are far from those of the cell before.
+    void fetch(std::size_t p) const
+    {
+        for (const auto* x : {&now, before})
+            for (int a = 0; a < kAxes && x != nullptr; ++a) __builtin_prefetch(&(*x)[a][p]);
+    }
+};
+
+struct CellOfBlock {
+    int at, first, end;  ///< number of the cell, and of its particles
+};
+
+/// The cells of a block with particles whose middles are no farther from a solid.
+/// @return  their number
+int cellsNearSolids(const ParticleOrder& order, const CutGrid& cut, int block, double farthest, std::array<CellOfBlock, kBlockCells>& cells)
+{
+    int count = 0;
+    for (int c = 0; c < kBlockCells; ++c) {
+        const int* start = order.cells(block) + cellRank(c & 7, c >> 3 & 7, c >> 6);
+        if (start[0] == start[1] || (cut.field.nearSolid(block) && cut.field.centerDistance(block)[c] > farthest)) continue;
+        cells[count++] = {c, start[0], start[1]};
+    }
+    return count;
 }
 
 }  // namespace
@@ -157,15 +212,15 @@ PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut,
         const double sweep = cut.obstacles.anyMoving() ? cut.obstacles.farthestMove(cut.grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
         const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * cut.grid.dx + reach;
         if (!cut.field.nearSolid(b) && reach < ObstacleField::kExactDistance * cut.grid.dx) return pushed;
-        for (int c = 0; c < kBlockCells; ++c) {
-            const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
-            const int* start = order.cells(b) + cellRank(i, j, k);
-            if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
-            const double clear = cut.field.nearSolid(b) ? (cut.field.centerDistance(b)[c] - sweep) / cut.obstacles.steepest() : 0.0;
-            const Vec3 center = cut.grid.lowerCorner(b) + cut.grid.dx * (Vec3(i, j, k) + Vec3::Constant(0.5));
-            for (int s = start[0]; s < start[1]; ++s)
-                if (mayMeet(before, particles, s, center, clear))
-                    pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, s, particles, impulses);
+        const Places places{before, particles.x};
+        std::array<CellOfBlock, kBlockCells> cells;
+        const int count = cellsNearSolids(order, cut, b, safe, cells);
+        for (int m = 0; m < count; ++m) {
+            if (m + kAhead < count) places.fetch(cells[m + kAhead].first);
+            const CellOfBlock& cell = cells[m];
+            const ClearBall clear = clearAround(cut, b, {cell.at & 7, cell.at >> 3 & 7, cell.at >> 6}, sweep);
+            for (int p = cell.first; p < cell.end; ++p)
+                if (!places.areIn(clear, p)) pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses);
         }
         return pushed;
     };

@@ -75,6 +75,7 @@ double noiseOf(const CutGrid& cut, double pitch, int b, int c)
 double volumeError(const CutGrid& cut, const Vec3& gravity, const LiquidGrid& liquid, int b, int c)
 {
     const double fill = liquid.fill.block(b)[c];
+    if (std::abs(fill - 1.0) <= kVolumeNoise) return 0.0;
     if (fill > 1.0) return std::clamp(fill - 1.0 - noiseOf(cut, liquid.pitch, b, c), 0.0, kLargestError);
     const double least = leastFill(cut, gravity, liquid, b, c);
     return fill < least ? std::min(fill + noiseOf(cut, liquid.pitch, b, c) - least, 0.0) : 0.0;

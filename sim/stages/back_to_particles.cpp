@@ -54,6 +54,19 @@ void keepPlaces(const LiquidParticles& particles, std::array<AlignedArray<double
     }
 }
 
+/// Farthest that the correction of the volume has moved a particle [cm]: along each axis their displacements are means of those of faces.
+double farthestCorrected(const BlockArray<double, 3>& displacement, int blocks)
+{
+    return std::sqrt(3.0) * parallelMax(blocks, [&](std::size_t b) {
+               const double* faces = displacement.block(static_cast<int>(b));
+               Pack largest = broadcast(0.0);
+               for (int i = 0; i < kAxes * kBlockCells; i += kLanes) largest = maxPack(largest, absPack(loadPack(faces + i)));
+               double most = 0.0;
+               for (int l = 0; l < kLanes; ++l) most = std::max(most, largest[l]);
+               return most;
+           });
+}
+
 /// @param fastest  speed at which particles may have moved [cm/s]
 PushOutTotals pushOut(StepContext& c, double fastest)
 {
@@ -61,7 +74,7 @@ PushOutTotals pushOut(StepContext& c, double fastest)
     Workspace& work = c.work;
     work.obstacles.moveTo(c.state.time, c.state.time + c.dt);
     const double farthest = fastest * c.dt + (c.plan.relaxes ? work.relaxReach : 0.0) +
-                            (c.plan.correctsVolume ? std::sqrt(3.0) * kLargestCorrection * c.state.grid.dx : 0.0);
+                            (c.plan.correctsVolume ? farthestCorrected(work.volume.displacement, c.state.grid.count()) : 0.0);
     return pushOutOfObstacles(work.order, c.cut(), farthest, &work.places, c.state.liquid, work.pushedSolids);
 }
 
