@@ -73,8 +73,7 @@ void plotProbes(const Probes& probes, const std::string& title, const std::files
         std::size_t column = 2;
         for (const Probe& probe : probes.all) {
             const std::size_t lines = std::max<std::size_t>(1, probe.points.size()), last = column + lines - 1;
-            text += fmt::format("set title {} noenhanced\nset ylabel {} noenhanced\n", gnuplotText(probe.name),
-                                gnuplotText(fmt::format("[{}]", probe.unit)));
+            text += fmt::format("set title {} noenhanced\nset ylabel {}\n", gnuplotText(probe.name), gnuplotUnit(probe.unit));
             if (hasNone(column, last)) text += "set key center\nplot [0:1] [0:1] -1 title 'no value'\n";  // gnuplot refuses lines without a point
             else if (lines == 1)
                 text += fmt::format("unset key\nplot 'probes.csv' skip 1 using 1:(valid({0}) ? column({0}) : NaN) with lines lw 2 lc rgb '{1}'\n",
@@ -83,8 +82,8 @@ void plotProbes(const Probes& probes, const std::string& title, const std::files
                 text += fmt::format(
                     "set key outside right center\nset palette defined (0 '#440154', 0.5 '#21918c', 1 '#fde725')\nunset colorbox\nset cbrange "
                     "[{0}:{1}]\nplot for [c={0}:{1}] 'probes.csv' skip 1 using 1:(valid(c) ? column(c) : NaN) with lines "
-                    "lw 2 lc palette cb c title (c == {0} || c == {1} ? sprintf('point %d', c - {0} + 1) : '')\n",
-                    column, last);
+                    "lw 2 lc palette cb c title (c == {0} ? 'at 0 cm' : c == {1} ? 'at {2:.4g} cm' : '')\n",
+                    column, last, (probe.points.back() - probe.points.front()).norm());
             column += lines;
         }
         return text + "unset multiplot\n";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace app {
@@ -15,6 +16,23 @@ std::string gnuplotText(std::string text)
 {
     for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2) text.insert(at, 1, '\'');
     return '\'' + text + '\'';
+}
+
+std::string gnuplotUnit(const std::string& unit)
+{
+    constexpr std::string_view kExponent = "-0123456789", kSpecial = "_@&~{}\\";
+    std::string text = "[";
+    for (std::size_t at = 0; at < unit.size(); ++at) {
+        const std::size_t end = unit[at] == '^' ? std::min(unit.find_first_not_of(kExponent, at + 1), unit.size()) : at;
+        if (end > at + 1) {
+            text += fmt::format("^{{{}}}", unit.substr(at + 1, end - at - 1));
+            at = end - 1;
+        } else {
+            if (kSpecial.find(unit[at]) != std::string_view::npos) text += '\\';
+            text += unit[at];
+        }
+    }
+    return gnuplotText(text + ']');
 }
 
 void drawPlot(const std::filesystem::path& folder, const std::string& name, const std::function<std::string(const std::string& picture)>& script)

@@ -17,6 +17,9 @@ bool canPlot();
 /// Text between single quotes for gnuplot.
 std::string gnuplotText(std::string text);
 
+/// A unit in brackets for an axis, with raised exponents: '[dyn/cm^{2}]' of dyn/cm^2.
+std::string gnuplotUnit(const std::string& unit);
+
 /// Draw folder/name.png by the script for a picture of that name, run in the folder, and leave the script beside it as
 /// name.gp, to draw it anew with. Throws std::runtime_error with gnuplot's own words.
 void drawPlot(const std::filesystem::path& folder, const std::string& name, const std::function<std::string(const std::string& picture)>& script);

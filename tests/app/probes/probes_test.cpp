@@ -48,6 +48,9 @@ TEST_F(ProbedRuns, AreTheRunsThatTheyWouldBeWithout)
             EXPECT_GE(std::floor(times[i] / std::stod(every) + 1e-6), std::floor(times[i - 1] / std::stod(every) + 1e-6) + 1.0);
         EXPECT_NEAR(times.back(), 0.08, std::stod(every));
     }
+    const std::string script = contentOf(folder / "with/probes.gp");
+    EXPECT_NE(script.find("'at 0 cm'"), std::string::npos) << "ends of a line are named by where they are: " << script;
+    EXPECT_NE(script.find("'at 2 cm'"), std::string::npos) << script;
 }
 
 /// Means since the last reading, which the stop falls into.
