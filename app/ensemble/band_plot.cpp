@@ -31,7 +31,7 @@ std::vector<BandPanel> energyPanels(const std::vector<BandCurve>& curves)
 {
     const int power = energyScale(curves);
     const double scale = std::pow(10.0, power);
-    const std::string unit = power == 0 ? "erg" : fmt::format("10^{{{}}} erg", power);
+    const std::string unit = power == 0 ? "erg" : fmt::format("10^{} erg", power);
     return {{"kinetic", unit, {"moving_erg"}, scale}, {"potential", unit, {"potential_erg"}, scale}, {"total", unit, {"total_erg"}, scale}};
 }
 
@@ -115,24 +115,26 @@ std::string panelText(const std::vector<BandCurve>& curves, const BandPanel& pan
     }
     const std::string title = isProfile ? panel.title + ", at the end" : panel.title;
     const std::string head = fmt::format("{}set title {} noenhanced\nset ylabel {}\nset xlabel '{}'\n", blocks, gnuplotText(title),
-                                         gnuplotText('[' + panel.unit + ']'), isProfile ? "along the line [cm]" : "time [s]");
+                                         gnuplotUnit(panel.unit), isProfile ? "along the line [cm]" : "time [s]");
     // gnuplot refuses a plot without a point.
     if (lines.empty()) return head + "plot [0:1] [0:1] -1 title 'no value'\n";
-    return head + fmt::format("plot {}\nunset key\n", fmt::join(lines, ", \\\n    "));
+    return head + fmt::format("plot {}\nunset key\nunset label 1\n", fmt::join(lines, ", \\\n    "));
 }
 
 /// What all panels have in common.
 std::string plotHead(std::size_t columns, std::size_t rows, const std::string& title, const std::string& picture)
 {
-    constexpr double kPanelWidth = 550.0, kPanelHeight = 400.0, kAround = 130.0;  // [pixels]; around: title and key
+    constexpr double kPanelWidth = 550.0, kPanelHeight = 400.0, kAround = 150.0;  // [pixels]; around: title, key and what bands are
     const double width = kPanelWidth * static_cast<double>(columns), height = kPanelHeight * static_cast<double>(rows) + kAround;
     return fmt::format(
         "set terminal pngcairo size {:.0f},{:.0f} font 'DejaVu Sans,12' linewidth 1\nset output {}\nset datafile separator ','\n"
         "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f} title {} noenhanced font ',14'\n"
         "set border 3 lw 1\nset tics nomirror out scale 0.6\nset grid ytics lc rgb '#dddddd' lw 1\nset xrange [*:*] noextend\n"
-        "set key at screen 0.5,{:.4f} center center vertical maxrows 2 samplen 2\n",
-        width, height, gnuplotText(picture), rows, columns, 125.0 / width, 1.0 - 25.0 / width, 120.0 / height, 1.0 - 70.0 / height, 145.0 / width,
-        90.0 / height, gnuplotText(title), 25.0 / height);
+        "set key at screen 0.5,{:.4f} center center vertical maxrows 2 samplen 2\n"
+        "set label 1 'mean; dark band: ± one standard deviation; light band: all runs' at screen 0.5,{:.4f} center font ',9' textcolor rgb "
+        "'#555555'\n",
+        width, height, gnuplotText(picture), rows, columns, 125.0 / width, 1.0 - 25.0 / width, 140.0 / height, 1.0 - 70.0 / height, 145.0 / width,
+        90.0 / height, gnuplotText(title), 48.0 / height, 12.0 / height);
 }
 
 }  // namespace

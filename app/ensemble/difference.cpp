@@ -25,11 +25,10 @@ constexpr double kPairsSameWithin = 1.0e-9;
 /// seems to find a difference in 1.25 and 1.35 % of cases where 1 % was asked for. Welch's with the fewest degrees of freedom needs no reserve.
 constexpr double kShareOfPairs = 0.5;
 
-/// Numbers of one unit: "erg" of "kinetic_erg, mean", "[cm]" of "height [cm], mean", "force" of "forces/…/mean_force[0]".
+/// Numbers of one unit: "erg" of "kinetic_erg, mean", "[cm]" of "height [cm], mean".
 std::string kindOf(const std::string& column)
 {
     const std::string name = column.substr(0, column.rfind(", "));
-    if (name.starts_with("forces/")) return name.find("torque") == std::string::npos ? "force" : "torque";
     const std::size_t unit = name.rfind(" [");
     return name.substr(unit != std::string::npos ? unit + 1 : name.rfind('_') + 1);
 }
@@ -71,7 +70,11 @@ void addConstant(const EnsembleColumn& column, std::vector<std::string>& constan
     if (column.spread().mean != 0.0 && std::ranges::find(constant, name) == constant.end()) constant.push_back(name);
 }
 
-std::string inPercent(double part, double whole) { return whole != 0.0 ? fmt::format("{:+.3g} %", 100.0 * part / std::abs(whole)) : ""; }
+/// "+1.2 %" of a mean, or nothing where that is next to 0.
+std::string inPercent(double part, const Spread& whole)
+{
+    return whole.isAwayFromZero() ? fmt::format("{:+.3g} %", 100.0 * part / std::abs(whole.mean)) : "";
+}
 
 /// "1.2 to 3.4", or nothing where there are too few runs.
 std::string intervalOf(const MeanDifference& found)
@@ -84,7 +87,7 @@ std::string differenceRow(const ColumnDifference& column, const std::string& ver
 {
     return fmt::format("| {} | {:.5g} ± {:.2g} | {:.5g} ± {:.2g} | {:.4g} | {} | {} | {} |\n", markdownCell(column.name), column.a.mean,
                        column.a.deviation, column.b.mean, column.b.deviation, column.found.difference, intervalOf(column.found),
-                       inPercent(column.found.difference, column.a.mean), verdict);
+                       inPercent(column.found.difference, column.a), verdict);
 }
 
 /// A number of two ensembles that is to be compared.
@@ -187,17 +190,18 @@ std::string sentenceOf(const EnsembleDifference& difference)
     if (seen == 0) return fmt::format("No difference seen between {} and {} in {} {}.", difference.a, difference.b, numbers, how);
     const auto clearest = std::ranges::max_element(difference.judged, {}, &ColumnDifference::clearness);
     const double low = clearest->found.difference - clearest->found.margin, high = clearest->found.difference + clearest->found.margin;
-    const std::string range = clearest->a.mean != 0.0 ? fmt::format("{} ({} to {})", inPercent(clearest->found.difference, clearest->a.mean),
-                                                                    inPercent(low, clearest->a.mean), inPercent(high, clearest->a.mean))
-                                                      : intervalOf(clearest->found);
+    const std::string range = clearest->a.isAwayFromZero() ? fmt::format("{} ({} to {})", inPercent(clearest->found.difference, clearest->a),
+                                                                         inPercent(low, clearest->a), inPercent(high, clearest->a))
+                                                           : "a difference of " + intervalOf(clearest->found);
     return fmt::format("{} differs from {} in {} of {}, most clearly in {}: {:.5g} against {:.5g}, {}, {}.", difference.b, difference.a, seen, all,
                        clearest->name, clearest->b.mean, clearest->a.mean, range, how);
 }
 
 std::string differenceTable(const EnsembleDifference& difference)
 {
-    std::string table = fmt::format("| number | {} | {} | difference | interval | of the first | |\n|---|---:|---:|---:|---:|---:|---|\n",
-                                    markdownCell(difference.a), markdownCell(difference.b));
+    std::string table = fmt::format(
+        "| number | {}: mean ± deviation | {}: mean ± deviation | difference | interval | of the first | |\n|---|---:|---:|---:|---:|---:|---|\n",
+        markdownCell(difference.a), markdownCell(difference.b));
     for (const ColumnDifference& column : difference.judged)
         table += differenceRow(column, column.found.isSeen() ? "**differs**" : "no difference seen");
     for (const ColumnDifference& column : difference.ofMachine) table += differenceRow(column, "of the machine");

@@ -104,12 +104,15 @@ EnsembleColumn memberColumn(const std::vector<Series>& all, const std::string& c
     return made;
 }
 
+/// Reports have forces and torques in cgs, whatever the scene is in.
+const char* unitOfForce(const std::string& name) { return name.find("torque") == std::string::npos ? " [dyn]" : " [dyn cm]"; }
+
 void addReportColumns(const Ensemble& ensemble, std::vector<EnsembleColumn>& columns)
 {
     const auto first = [](const Series&, const std::vector<double>& values) { return values.front(); };
     for (const std::string& name : columnNames(ensemble.reports))
-        if (name.starts_with("forces/") || std::ranges::find(kOfReport, name) != kOfReport.end())
-            columns.push_back(memberColumn(ensemble.reports, name, name, first));
+        if (name.starts_with("forces/")) columns.push_back(memberColumn(ensemble.reports, name, name + unitOfForce(name), first));
+        else if (std::ranges::find(kOfReport, name) != kOfReport.end()) columns.push_back(memberColumn(ensemble.reports, name, name, first));
 }
 
 void addLogColumns(const std::vector<Series>& log, std::vector<EnsembleColumn>& columns)

@@ -63,7 +63,7 @@ std::string ensembleTable(const Ensemble& ensemble)
         const Spread s = column.spread();
         if (s.count == 0 || (s.lowest == 0.0 && s.highest == 0.0)) continue;
         const std::string margin = s.count > 1 ? fmt::format("± {:.2g}", s.marginOfMean(kConfidenceOfMean)) : "";
-        const std::string relative = s.mean != 0.0 ? fmt::format("{:.2g} %", 100.0 * s.deviation / std::abs(s.mean)) : "";
+        const std::string relative = s.isAwayFromZero() ? fmt::format("{:.2g} %", 100.0 * s.deviation / std::abs(s.mean)) : "";
         table += fmt::format("| {} | {:.6g} | {} | {:.3g} | {} | {:.6g} | {:.6g} |\n", markdownCell(column.name), s.mean, margin, s.deviation,
                              relative, s.lowest, s.highest);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -15,6 +16,8 @@ struct Spread {
     double lowest = 0.0, highest = 0.0;
 
     double variance() const { return deviation * deviation; }
+    /// A mean within its own deviation of 0 is no measure for what is beside it.
+    bool isAwayFromZero() const { return std::abs(mean) > deviation; }
     /// Half the width of the interval around the mean in which the true one lies with this confidence; none for a single number.
     double marginOfMean(double confidence) const;
 };

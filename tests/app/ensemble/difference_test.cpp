@@ -113,12 +113,26 @@ TEST(EnsembleDifference, PairsTellWhatTheirSpreadWouldHide)
     EXPECT_EQ(differenceOf(a, b, 0.99, true).judged.size(), 0u) << "rounding is no difference";
 }
 
+TEST(EnsembleDifference, NoShareIsToldOfWhatIsNextToZero)
+{
+    const std::vector<EnsembleColumn> a = {{.name = "height [cm], mean", .values = {1.0, 1.1, 0.9}},
+                                           {.name = "sway [dyn]", .values = {-3.0, 3.5, -0.2}}};
+    std::vector<EnsembleColumn> b = a;
+    for (double& x : b[1].values) x += 1000.0;
+    b[0].values[0] = 1.01;
+    const EnsembleDifference difference = differenceOf(a, b, 0.99);
+    const std::string table = differenceTable(difference), sway = table.substr(table.find("| sway"));
+    EXPECT_NE(table.substr(0, table.find("| sway")).find(" %"), std::string::npos) << table;
+    EXPECT_EQ(sway.find(" %"), std::string::npos) << sway;
+    EXPECT_NE(sentenceOf(difference).find("sway [dyn]: 1000.1 against 0.1, a difference of "), std::string::npos) << sentenceOf(difference);
+}
+
 TEST(EnsembleDifference, WhatIsNothingBesideItsKindIsConstant)
 {
     const std::vector<EnsembleColumn> a = {{.name = "kinetic_erg, mean", .values = {1.0, 5.0, 9.0}},
                                            {.name = "modal_erg, mean", .values = {1.0e-29, 1.1e-29, 1.2e-29}},
-                                           {.name = "forces/floor/liquid/mean_force[1]", .values = {-7.0, -7.1, -7.2}},
-                                           {.name = "forces/floor/liquid/mean_torque[0]", .values = {1.0e-13, 1.1e-13, 2.0e-13}}};
+                                           {.name = "forces/floor/liquid/mean_force[1] [dyn]", .values = {-7.0, -7.1, -7.2}},
+                                           {.name = "forces/floor/liquid/mean_torque[0] [dyn cm]", .values = {1.0e-13, 1.1e-13, 2.0e-13}}};
     std::vector<EnsembleColumn> b = a;
     for (double& x : b[1].values) x *= 2.0;
     const EnsembleDifference difference = differenceOf(a, b, 0.99);

@@ -123,8 +123,12 @@ TEST_F(Ensembles, CompareTellsWhetherADifferenceIsSeen)
     const std::string script = contentOf(folder / "both" / "energy.gp");
     EXPECT_NE(script.find("energy_bands_1.csv"), std::string::npos);
     EXPECT_NE(script.find("energy_bands_2.csv"), std::string::npos);
+    EXPECT_NE(script.find("± one standard deviation"), std::string::npos) << "a plot says what its bands are";
     EXPECT_NE(contentOf(folder / "a" / "probes_bands.csv").find("height [cm] mean,height [cm] deviation"), std::string::npos);
-    EXPECT_NE(contentOf(folder / "a" / "ensemble.md").find("| height [cm], at the end |"), std::string::npos);
+    const std::string table = contentOf(folder / "a" / "ensemble.md");
+    EXPECT_NE(table.find("| height [cm], at the end |"), std::string::npos);
+    EXPECT_NE(table.find("/mean_force[1] [dyn] |"), std::string::npos) << table;
+    EXPECT_NE(other.find("| thick: mean ± deviation |"), std::string::npos) << other;
 }
 
 TEST_F(Ensembles, ARunIsOneLikeAnyOtherAndMoreRunsAreAddedToThoseThatAreThere)
