@@ -81,7 +81,8 @@ void visitFields(V& v, CameraSettings& c)
         w.vector("look_at", c.lookAt, Quantity::Length, "Point in the middle of the picture");
         w.vector("eye", c.eye, Quantity::Length, "Place of the camera");
     });
-    v.when(c.orbit, [&](auto& w) { w.group("orbit", "", [&](auto& o) { describeOrbit(o, c); }); });
+    v.when(c.orbit,
+           [&](auto& w) { w.group("orbit", "Camera that goes around a point, in the place of eye", [&](auto& o) { describeOrbit(o, c); }); });
     v.vector("up", c.up, Quantity::None, "Direction that is up in the picture");
     v.number("fov", c.fovDegrees, Quantity::AngleDegrees, Range::between(1.0, 170.0), "Vertical field of view");
     v.require(c.up.norm() > 0.0, "up", "must be a direction, like [0, 1, 0]");
@@ -148,14 +149,14 @@ void visitFields(V& v, RenderSettings& r)
 {
     v.pixels("size", r.width, r.height, 16, 16384, "Width and height of the picture in pixels");
     v.color("background", r.background, "Red, green, blue, 0 to 1");
-    v.section("camera", r.camera, "");
-    v.group("liquid", "", [&](auto& w) { describeLiquidLook(w, r); });
-    v.group("cloth", "", [&](auto& w) { describeFabricLook(w, r.cloth); });
-    v.group("yarns", "", [&](auto& w) {
+    v.section("camera", r.camera, "From where it is seen");
+    v.group("liquid", "Liquid in pictures", [&](auto& w) { describeLiquidLook(w, r); });
+    v.group("cloth", "Cloth in pictures", [&](auto& w) { describeFabricLook(w, r.cloth); });
+    v.group("yarns", "Yarns in pictures", [&](auto& w) {
         describeFabricLook(w, r.yarns);
         w.integer("tube_sides", r.yarns.tubeSides, 3, 64, "Sides of yarns near the camera; distant ones have fewer");
     });
-    v.group("obstacles", "", [&](auto& w) {
+    v.group("obstacles", "Solids in pictures", [&](auto& w) {
         w.choice("style", r.obstacleStyle, "How obstacles are drawn; auto: solid where there is fabric, else translucent");
         w.number("opacity", r.obstacleOpacity, Quantity::None, Range::between(0.0, 1.0), "0 = invisible, 1 = solid");
     });
@@ -185,7 +186,7 @@ void visitFields(V& v, OutputSettings& o)
              {"checkpoint", &o.checkpoint}},
             "Data files of a run beside report.json: energy.csv, steps.jsonl, energy_ledger.csv (where energy goes; slow), "
             "geometry/, the state of every frame for drench render and export, checkpoints to go on from");
-    v.group("checkpoint", "", [&](auto& w) {
+    v.group("checkpoint", "States to go on from", [&](auto& w) {
         w.number("every", o.checkpointEvery, Quantity::Time, Range::above(0.0), "Simulated time from checkpoint to checkpoint, in whole frames");
         w.integer("keep", o.checkpointKeep, 0, 1'000'000, "The last so many are kept, 0: all");
     });
@@ -195,7 +196,7 @@ void visitFields(V& v, OutputSettings& o)
     v.flag("geometry_surface", o.geometrySurface, "A mesh of the liquid's surface in them, too");
     v.require(formats.any(), "geometry_format", "names no format; there is vtp, ply, obj, usda");
     v.other("probes", "What is read as the run goes, into probes.csv");
-    v.group("video", "", [&](auto& w) {
+    v.group("video", "The video of all pictures", [&](auto& w) {
         w.number("fps", o.videoFps, Quantity::None, Range::aboveTo(0.0, 1000.0), "Pictures per second of the video");
         w.text("codec", o.videoCodec, "Video codec, as ffmpeg names it");
         w.require(isCodecName(o.videoCodec), "codec", "may have letters, digits, _ and - only, like libx264");

@@ -19,6 +19,38 @@ namespace {
 using sim::DeclaredKey;
 using sim::Node;
 
+constexpr KeyMeaning kShapeKinds[] = {
+    {"box", "A box along the axes"},
+    {"rounded_box", "A box with round edges"},
+    {"ball", "A ball"},
+    {"capsule", "All that is near a line"},
+    {"cylinder", "A cylinder"},
+    {"mesh", "A closed mesh of an OBJ file"},
+    {"union", "All of these shapes together"},
+    {"intersect", "What these shapes have in common"},
+    {"subtract", "The first of these shapes without the others"},
+    {"invert", "All outside of a shape"},
+    {"rotate", "Turns it, about its middle unless origin says another point"},
+    {"translate", "Moves it, after rotate [cm]"},
+};
+
+constexpr KeyMeaning kFabricKinds[] = {
+    {"cloth_grid", "A rectangle of cloth"}, {"woven_yarns", "A weave of yarns"}, {"strand", "One yarn"},
+    {"mesh", "Cloth of an OBJ file"},       {"points", "Yarns of an OBJ file"},
+};
+
+constexpr KeyMeaning kPinnedVertices[] = {
+    {"corners", "All corners, or a list of some, like [\"x- z-\", \"x- z+\"]"},
+    {"edge", "Those along a side, like x-"},
+    {"nodes", "Those of these numbers, from 0"},
+    {"shape", "Those inside of a shape"},
+    {"box", "Those inside of a box"},
+    {"ball", "Those inside of a ball"},
+};
+
+constexpr KeyMeaning kPieceKinds[] = {
+    {"rotate", "Turns it"}, {"oscillate", "Swings it"}, {"keys", "Times and places that it passes, each [t, x, y, z]"}};
+
 const DeclaredKey kLength = {
     .name = "", .kind = DeclaredKey::Kind::Numbers, .help = "", .quantity = sim::Quantity::Length, .count = 3, .words = {}, .below = {}};
 
@@ -45,6 +77,7 @@ SchemaJson shapeSchema()
     for (const std::string& kind : sim::shapeKinds()) properties[kind] = shapeKindSchema(kind);
     properties["rotate"] = definitionOf("rotate");
     properties["translate"] = pointSchema();
+    addMeanings(kShapeKinds, properties);
     SchemaJson schema = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
     requireOneOf(sim::shapeKinds(), schema);
     return schema;
@@ -78,6 +111,7 @@ SchemaJson openingSchema()
     sim::visitFields(keys, values);
     SchemaJson schema = mapSchema(keys.keys, SchemaOf::Body);
     schema["properties"]["name"] = textSchema();
+    schema["properties"]["name"]["description"] = "What messages and the keys of variants call it";
     return schema;
 }
 
@@ -106,6 +140,8 @@ SchemaJson fabricSchema()
          {{"type", "object"}, {"properties", {{"rotate", definitionOf("rotate")}, {"translate", pointSchema()}}}, {"additionalProperties", false}}}};
     for (const std::string& kind : sim::fabricShapeKinds()) others.emplace_back(kind, fabricKindSchema(kind));
     SchemaJson schema = schemaOfKeysRead(keys, others);
+    addMeanings(kFabricKinds, schema["properties"]);
+    schema["properties"]["transform"]["properties"]["translate"]["description"] = "Moves it, after rotate [cm]";
     requireOneOf(sim::fabricShapeKinds(), schema);
     return schema;
 }
@@ -122,6 +158,7 @@ SchemaJson pinSchema()
                                                 {"box", shape["properties"]["box"]},
                                                 {"ball", shape["properties"]["ball"]},
                                                 {"motion", definitionOf("motion")}});
+    addMeanings(kPinnedVertices, schema["properties"]);
     requireOneOf({"corners", "edge", "nodes", "shape", "box", "ball"}, schema);
     return schema;
 }
@@ -145,9 +182,11 @@ SchemaJson pieceSchema()
     oscillate["properties"]["amplitude"] = {{"anyOf", {{{"type", "number"}}, {{"type", "string"}}}}, {"description", "[cm], or about an axis [deg]"}};
     SchemaJson row = pointSchema();
     row["minItems"] = row["maxItems"] = 4;
-    return schemaOfKeysRead(
+    SchemaJson schema = schemaOfKeysRead(
         keys,
         {{"rotate", mapSchema(keysReadBy("{t: [0, 1], rotate: {}}", read), SchemaOf::Body)}, {"oscillate", oscillate}, {"keys", listSchema(row, 2)}});
+    addMeanings(kPieceKinds, schema["properties"]);
+    return schema;
 }
 
 }  // namespace
@@ -160,7 +199,10 @@ SchemaJson bodyDefinitions()
                               {"pin", pinSchema()},         {"motion_piece", pieceSchema()}, {"motion", {{"anyOf", {piece, listSchema(piece, 1)}}}}};
     requireOneOf({"translate", "rotate", "oscillate", "keys"}, definitions["motion_piece"]);
     SchemaJson named = definitions["motion_piece"];
-    for (const char* target : {"obstacle", "group", "pin"}) named["properties"][target] = textSchema();
+    for (const char* target : {"obstacle", "group", "pin"}) {
+        named["properties"][target] = textSchema();
+        named["properties"][target]["description"] = "Name of what moves";
+    }
     definitions["named_motion_piece"] = named;
     return definitions;
 }

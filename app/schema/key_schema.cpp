@@ -84,7 +84,7 @@ SchemaJson bareKeySchema(const DeclaredKey& key, SchemaOf of)
 std::string descriptionOf(const DeclaredKey& key)
 {
     const std::string unit = sim::unitOf(key.quantity), range = key.kind == Kind::Integer || key.kind == Kind::Integers ? "" : key.range.text("");
-    std::string text(key.help);
+    std::string text(key.kind == Kind::PerPhase && key.help.empty() ? key.below.front().help : key.help);
     if (!unit.empty()) text += fmt::format("{}[{}]", text.empty() ? "" : " ", unit);
     if (!range.empty()) text += fmt::format("{}{}", text.empty() ? "" : ", ", range);
     return text;
@@ -159,6 +159,11 @@ void requireOneOf(const std::vector<std::string>& keys, SchemaJson& map)
     SchemaJson all = SchemaJson::array();
     for (const std::string& key : keys) all.push_back({{"required", SchemaJson::array({key})}});
     map["oneOf"] = all;
+}
+
+void addMeanings(std::span<const KeyMeaning> meanings, SchemaJson& properties)
+{
+    for (const KeyMeaning& m : meanings) properties.at(m.key)["description"] = m.meaning;
 }
 
 SchemaJson definitionOf(const char* name) { return {{"$ref", fmt::format("#/definitions/{}", name)}}; }

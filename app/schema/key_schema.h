@@ -40,4 +40,10 @@ void requireOneOf(const std::vector<std::string>& keys, SchemaJson& map);
 /// A definition of the schema: "#/definitions/shape".
 SchemaJson definitionOf(const char* name);
 
+/// What keys mean whose own code does not say it.
+struct KeyMeaning {
+    const char *key, *meaning;
+};
+void addMeanings(std::span<const KeyMeaning> meanings, SchemaJson& properties);
+
 }  // namespace app

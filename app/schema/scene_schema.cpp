@@ -22,6 +22,30 @@ using sim::Node;
 
 constexpr const char* kDraft = "http://json-schema.org/draft-07/schema#";
 
+/// What sections are for, and lists and maps that take their place.
+constexpr KeyMeaning kSections[] = {
+    {"scene", "What the scene is called"},
+    {"time", "Steps, and how long it runs"},
+    {"transfer", "How velocities go between particles and grid; a word alone is the method"},
+    {"grid", "The grid"},
+    {"coupling", "What liquid and fabric do to each other"},
+    {"solver", "How exactly equations are solved"},
+    {"porous", "Pores of all fabric"},
+    {"fabric", "How fabric is simulated"},
+    {"liquid", "The liquid, and where it starts"},
+    {"materials", "Materials of fabrics, by names of your own"},
+    {"fabrics", "Pieces of fabric"},
+    {"obstacles", "Solid bodies"},
+    {"domain", "Where liquid may be: what leaves it is deleted and told"},
+    {"motion", "Motions of obstacles, fabrics, groups and pins, by their names"},
+    {"changes", "Settings that change on the way"},
+    {"render", "How pictures look"},
+    {"output", "What a run writes"},
+    {"compare", "Which runs are compared, and how"},
+    {"validate", "Known answers that a run is held against"},
+    {"precision", "A case of drench bench precision"},
+};
+
 template <class Fields>
 SchemaJson declaredMap(Fields fields)
 {
@@ -182,6 +206,7 @@ SchemaJson sceneProperties()
                        {"compare", compareSchema()},
                        {"validate", validateSchema()},
                        {"precision", precisionSchema()}});
+    addMeanings(kSections, properties);
     return properties;
 }
 

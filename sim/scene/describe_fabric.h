@@ -87,7 +87,7 @@ void visitFields(V& v, PorousSettings& p)
     });
     v.when(false, [&](auto& w) {
         double poreRadius = 0.0, threads = 0.0, thickness = 0.0;
-        w.number("pore_radius", poreRadius, Quantity::Length, Range::above(0.0), "");
+        w.number("pore_radius", poreRadius, Quantity::Length, Range::above(0.0), "Radius of a pore, in the place of one of the other two");
         w.number("thread_count", threads, Quantity::None, Range::above(0.0), "Threads per cm^2 in every system of units");
         w.number("thickness", thickness, Quantity::Length, Range::above(0.0), "Of the cloth, with thread_count");
         w.whenReading([&](auto& reader) { resolvePorous(reader, poreRadius, threads, thickness, p); });

@@ -69,13 +69,13 @@ SourceSettings readSource(const Node& node, const std::string& name, const std::
     Emission initial;
     initial.from = initial.to = settings.time.start;
     SectionReader::read(&node, path, [&](auto& v) {
-        v.other("name", "");
+        v.other("name", "What tables and the keys of variants call it");
         v.required("shape", "what the liquid fills, like shape: {ball: {center: [0, 5, 0], radius: 1}}");
         v.other("shape", "");
-        v.vector("velocity", initial.velocity, Quantity::Velocity, "");
-        v.other("velocity_field", "");
-        v.section("fill", source.fill, "");
-        v.other("emit", "");
+        v.vector("velocity", initial.velocity, Quantity::Velocity, "Of the liquid that starts there, and of what emit gives");
+        v.other("velocity_field", "Velocity at the start instead, three formulas of x, y, z [cm/s]");
+        v.section("fill", source.fill, "How particles are laid");
+        v.other("emit", "Times between which it flows");
     });
     if (const Node* field = node.find("velocity_field")) source.velocityField = readField(*field, joinPath(path, "velocity_field"));
     if (source.fill.spacing == 0.0) source.fill.spacing = settings.liquid.particleSpacing;
@@ -99,7 +99,7 @@ OpeningSettings readOpening(const Node& node, const std::string& name, const std
     opening.name = name;
     opening.where = node.location.text();
     SectionReader::read(&node, path, [&](auto& v) {
-        v.other("name", "");
+        v.other("name", "What messages and the keys of variants call it");
         visitFields(v, opening);
     });
     return opening;
@@ -149,14 +149,14 @@ ObstacleSettings readObstacle(const Node& node, const std::string& name, const s
     obstacle.where = node.location.text();
     double friction = 0.0;
     SectionReader::read(&node, path, [&](auto& v) {
-        v.other("name", "");
+        v.other("name", "What motions, forces and probes call it");
         v.required("shape", "the solid body, like shape: {ball: {center: [0, 0, 0], radius: 1}}");
         v.other("shape", "");
-        v.flag("inside", obstacle.inside, "");
-        v.other("motion", "");
-        v.flag("collide", obstacle.collide, "");
-        v.number("friction_angle", friction, Quantity::Angle, Range::between(0.0, 89.0), "");
-        v.flag("cohesive", obstacle.cohesive, "");
+        v.flag("inside", obstacle.inside, "It is hollow: all outside of the shape is solid");
+        v.other("motion", "How it moves");
+        v.flag("collide", obstacle.collide, "Fabric feels it; false lets fabric through");
+        v.number("friction_angle", friction, Quantity::Angle, Range::between(0.0, 89.0), "Of fabric on it; left out: that of the material");
+        v.flag("cohesive", obstacle.cohesive, "Wet fabric sticks to it");
     });
     if (node.find("friction_angle")) obstacle.frictionAngle = friction;
     ReadShape shape = readShape(*node.find("shape"), joinPath(path, "shape"), settings.cell);

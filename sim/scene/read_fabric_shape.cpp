@@ -117,8 +117,10 @@ ReadFabricShape readClothGrid(const Context& context)
             bySize = r.has("size");
             if (bySize == r.has("spacing")) context.fail("needs either spacing or size");
         });
-        v.when(!bySize, [&](auto& w) { w.numberOrPair("spacing", grid.spacing, Quantity::Length, kSize, ""); });
-        v.when(bySize, [&](auto& w) { w.numberOrPair("size", size, Quantity::Length, kSize, ""); });
+        v.when(!bySize, [&](auto& w) {
+            w.numberOrPair("spacing", grid.spacing, Quantity::Length, kSize, "Distance from vertex to vertex, or [along u, along v]");
+        });
+        v.when(bySize, [&](auto& w) { w.numberOrPair("size", size, Quantity::Length, kSize, "Length of the sides, in the place of spacing"); });
         visitFields(v, placement);
     };
     SectionReader::read(&context.node, context.path, fields);
@@ -144,9 +146,10 @@ ReadFabricShape readWovenYarns(const Context& context)
         v.required("spacing", "the distance from yarn to yarn, like spacing: 0.144");
         v.number("spacing", cloth.spacing, Quantity::Length, kSize, "");
         v.whenReading([&](auto&) { cloth.amplitude = 0.5 * cloth.spacing; });
-        v.number("amplitude", cloth.amplitude, Quantity::Length, Range::between(0.0, kFarthest), "");
-        v.choice("weave", cloth.weave, "");
-        v.flag("borders", cloth.borders, "");
+        v.number("amplitude", cloth.amplitude, Quantity::Length, Range::between(0.0, kFarthest),
+                 "How far yarns go up and down; left out: half of spacing");
+        v.choice("weave", cloth.weave, "Which yarns go over which");
+        v.flag("borders", cloth.borders, "Yarns along the rim, too");
         visitFields(v, placement);
     };
     SectionReader::read(&context.node, context.path, fields);
@@ -173,15 +176,15 @@ ReadFabricShape readStrand(const Context& context)
     const Node* points = context.node.find("points");
     const auto fields = [&](auto& v) {
         describeThread(v, radius);
-        v.other("points", "");
+        v.other("points", "Corners of the yarn, or from, to and segments");
         v.when(!points, [&](auto& w) {
             w.whenReading([&](auto& r) {
                 const int given = r.has("from") + r.has("to") + r.has("segments");
                 if (points ? given > 0 : given < 3) context.fail("needs either points, or from, to and segments");
             });
-            w.vector("from", from, Quantity::Length, "");
-            w.vector("to", to, Quantity::Length, "");
-            w.integer("segments", segments, 1, context.mostVertices() - 1, "");
+            w.vector("from", from, Quantity::Length, "One end of a straight yarn");
+            w.vector("to", to, Quantity::Length, "The other end");
+            w.integer("segments", segments, 1, context.mostVertices() - 1, "Edges of a straight yarn");
         });
     };
     SectionReader::read(&context.node, context.path, fields);

@@ -54,8 +54,8 @@ std::string place(const Node& node, const std::string& path, FabricPiece& piece)
         text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, read.text);
     };
     SectionReader::read(&node, path, [](auto& v) {
-        v.other("rotate", "");
-        v.other("translate", "");
+        v.other("rotate", "Turns it, about its middle unless origin says another point");
+        v.other("translate", "Moves it");
     });
     Eigen::AlignedBox3d bounds;
     for (const Vec3& x : piece.points) bounds.extend(x);
@@ -67,14 +67,14 @@ std::string place(const Node& node, const std::string& path, FabricPiece& piece)
 void readPieceFields(const Node& node, const std::string& path, FabricPiece& piece)
 {
     SectionReader::read(&node, path, [&](auto& v) {
-        v.other("name", "");
+        v.other("name", "What motions, forces and probes call it");
         v.text("group", piece.group, "Another name for motions, which several pieces may share");
-        v.other("material", "");
+        v.other("material", "Name of one of materials");
         for (const std::string& kind : fabricShapeKinds()) v.other(kind.c_str(), "");
-        v.vector("velocity", piece.velocity, Quantity::Velocity, "");
-        v.other("pin", "");
-        v.other("transform", "");
-        v.number("wetness", piece.wetness, Quantity::None, Range::between(0.0, 1.0), "");
+        v.vector("velocity", piece.velocity, Quantity::Velocity, "At the start");
+        v.other("pin", "Vertices that are held, or moved");
+        v.other("transform", "Where it lies, after what makes it");
+        v.number("wetness", piece.wetness, Quantity::None, Range::between(0.0, 1.0), "Share of the pores that liquid fills at the start");
     });
     if (const Node* group = node.find("group")) requireName(piece.group, group->location, path + ".group");
 }

@@ -52,18 +52,19 @@ Vec3 unit(const Vec3& axis, const Node& node, const std::string& path)
 template <class V>
 void describeTurn(V& v, Piece& p)
 {
-    v.vector("axis", p.axis, Quantity::None, "");
-    v.vector("origin", p.origin, Quantity::Length, "");
-    v.choice("frame", p.frame, "");
+    v.vector("axis", p.axis, Quantity::None, "Direction to turn about");
+    v.vector("origin", p.origin, Quantity::Length, "Point on the axis");
+    v.choice("frame", p.frame, "Whether axis and origin stay in space or go with the body");
 }
 
 template <class V>
 void visitFields(V& v, Piece& p, const Kind& kind)
 {
-    if (!kind.followsPath) v.pair("t", p.t, Quantity::Time, kTime, "");
-    if (kind.translates || kind.rotates) v.pair("ease", p.ease, Quantity::Time, Range::atLeast(0.0), "");
-    if (kind.translates) v.vector("translate", p.translate, Quantity::Length, "");
-    if (kind.followsPath) v.choice("interp", p.interpolation, "");
+    if (!kind.followsPath) v.pair("t", p.t, Quantity::Time, kTime, "Times of its beginning and end");
+    if (kind.translates || kind.rotates)
+        v.pair("ease", p.ease, Quantity::Time, Range::atLeast(0.0), "Time in which it gets going, and comes to rest");
+    if (kind.translates) v.vector("translate", p.translate, Quantity::Length, "How far it moves between them");
+    if (kind.followsPath) v.choice("interp", p.interpolation, "What joins places of keys");
     for (const char* key : {"rotate", "oscillate", "keys"}) v.other(key, "");
 }
 
@@ -152,7 +153,7 @@ class PieceReader {
         kind_.swings = node.find("axis") != nullptr;
         const auto fields = [&](auto& v) {
             if (kind_.swings) describeTurn(v, piece_);
-            if (!kind_.swings) v.vector("direction", piece_.direction, Quantity::None, "");
+            if (!kind_.swings) v.vector("direction", piece_.direction, Quantity::None, "Direction of the swing");
             v.required("amplitude", "how far it swings to each side, a length (with axis: an angle)");
             if (kind_.swings) v.number("amplitude", piece_.swing, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
             if (!kind_.swings) v.number("amplitude", piece_.amplitude, Quantity::Length, Range::between(-kFarthest, kFarthest), "");

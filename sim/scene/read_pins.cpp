@@ -113,7 +113,7 @@ class PinReader {
             v.integer("patch", patch_, 1, 1'000'000, "Vertices from each corner, or rows from the side");
             v.flag("border_only", borderOnly_, "Of a patch only what lies on the border");
             v.flag("twist", pin.twist, "The twist of yarns is held too");
-            v.other("motion", "");
+            v.other("motion", "How they move");
         });
         if (const Node* name = node_.find("name")) requireName(pin.name, name->location, path_ + ".name");
         pin.text = select();

@@ -40,7 +40,7 @@ ReadTransform readRotation(const Node& node, const std::string& path, const Vec3
         v.vector("axis", axis, Quantity::None, "");
         v.required("angle", "how far to turn, in degrees, like angle: 30");
         v.number("angle", angle, Quantity::Angle, Range::between(-3600.0, 3600.0), "");
-        v.vector("origin", origin, Quantity::Length, "");
+        v.vector("origin", origin, Quantity::Length, "Point on the axis");
     };
     SectionReader::read(&node, path, fields);
     requireNear(node, path, origin);

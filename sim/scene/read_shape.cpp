@@ -25,11 +25,11 @@ ReadShape readBox(const Node& node, const Context& context, bool isRound)
     Vec3 center = Vec3::Zero(), half = Vec3::Zero(), low = Vec3::Zero(), high = Vec3::Zero();
     double round = 0.0;
     const auto fields = [&](auto& v) {
-        v.vector("center", center, Quantity::Length, "");
-        v.vector("half", half, Quantity::Length, "");
+        v.vector("center", center, Quantity::Length, "The middle");
+        v.vector("half", half, Quantity::Length, "Half of the edges, with center");
         v.when(false, [&](auto& w) {
-            w.vector("min", low, Quantity::Length, "");
-            w.vector("max", high, Quantity::Length, "");
+            w.vector("min", low, Quantity::Length, "Lowest corner, with max, in the place of center and half");
+            w.vector("max", high, Quantity::Length, "Highest corner");
         });
         if (isRound) v.required("round", "the radius of the edges, added outside of half");
         if (isRound) v.number("round", round, Quantity::Length, kRound, "");
@@ -91,12 +91,12 @@ ReadShape readCylinder(const Node& node, const Context& context)
     const auto fields = [&](auto& v) {
         v.required("center", "the middle of the cylinder, like center: [0, 5, 0]");
         v.vector("center", center, Quantity::Length, "");
-        v.vector("axis", axis, Quantity::None, "");
+        v.vector("axis", axis, Quantity::None, "Direction of the height");
         v.required("radius", "the distance of the side from the axis, like radius: 0.5");
         v.number("radius", radius, Quantity::Length, kSize, "");
         v.required("half", "half of the height, like half: 2");
         v.number("half", half, Quantity::Length, kSize, "");
-        v.number("round", round, Quantity::Length, kRound, "");
+        v.number("round", round, Quantity::Length, kRound, "Radius of the rims");
         v.require(round <= radius, "round", "must not be above radius");
     };
     SectionReader::read(&node, context.path, fields);
@@ -111,8 +111,8 @@ ReadShape readMesh(const Node& node, const Context& context)
     const auto fields = [&](auto& v) {
         v.required("file", "an OBJ file, relative to the scene, like file: cow.obj");
         v.text("file", file, "");
-        v.number("scale", scale, Quantity::Length, kSize, "");
-        v.number("cell", cell, Quantity::Length, kSize, "");
+        v.number("scale", scale, Quantity::Length, kSize, "Length of the unit of the file");
+        v.number("cell", cell, Quantity::Length, kSize, "Pitch of the distances that are kept; left out: half of grid.cell");
         v.unsupported("cache", "this version finds the distances of a mesh anew in every run; remove the key (a larger mesh.cell is faster)");
     };
     SectionReader::read(&node, context.path, fields);

@@ -3,12 +3,15 @@
 
 usage: check_schema.py DRENCH SCENES SPOILT
 
-They must be those that the program writes. Every scene must be valid. Then so many scenes are spoilt, each at one place: what the schema
+They must be those that the program writes, and say of every key what it means. Every scene must be valid. Then so many scenes are spoilt, each at one place: what the schema
 refuses the reader must refuse, and a key that the reader does not know the schema must refuse too.
 """
 import copy, json, os, pathlib, random, re, shutil, subprocess, sys, tempfile
 
 import jsonschema, yaml
+
+
+UNIT_AND_RANGE = r"\[[^]]*\]|\b(above|below|at least|at most) \S+|[-0-9.e+]+ to [-0-9.e+]+|, "
 
 
 class Yaml12(yaml.SafeLoader):
@@ -67,6 +70,16 @@ def read_schema(drench, scenes, kind):
     return jsonschema.Draft7Validator(schema)
 
 
+def keys_without_meaning(schema, path=""):
+    """Keys of which an editor would have nothing to say."""
+    for key, below in schema.get("properties", {}).items() if isinstance(schema, dict) else ():
+        if "$ref" not in below and not re.sub(UNIT_AND_RANGE, "", below.get("description", "")):
+            yield f"{path}/{key}"
+    items = schema.items() if isinstance(schema, dict) else enumerate(schema) if isinstance(schema, list) else ()
+    for key, below in items:
+        yield from keys_without_meaning(below, f"{path}/{key}")
+
+
 def judge(drench, validator, file, spoilt, where):
     """What schema and reader say of a scene that stands in for another, and a complaint where they contradict each other."""
     file.write_text(yaml.safe_dump(spoilt))
@@ -89,6 +102,7 @@ def main():
         folder = shutil.copytree(scenes, pathlib.Path(copies) / "scenes")
         whole = {file: yaml.load(file.read_text(), Yaml12) for file in sorted(folder.rglob("*.yaml"))}
         failures = [f"{file}: the schema refuses {what}" for file, scene in whole.items() if (what := problem(validator, scene))]
+        failures += [f"{key}: the schema does not say what it means" for key in keys_without_meaning(validator.schema)]
         refused = unknown = 0
         for _ in range(count):
             file, scene = dice.choice(list(whole.items()))
