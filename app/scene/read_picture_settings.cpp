@@ -67,6 +67,8 @@ PictureSettings readPictureSettings(const sim::SceneFile& file)
     if (const Node* output = root.find("output"))
         if (const Node* probes = output->find("probes")) settings.output.probes = probes->flow();
     settings.compare.variants = variantsOf(file);
+    // A scene that does not say what is made of its runs asks for no plot of what they do not keep.
+    if (!root.find("compare") || !root.find("compare")->find("products")) settings.compare.energyPlot = settings.output.energy;
     checkReference(root, settings.compare);
     checkEnergyPlot(root, settings);
     return settings;

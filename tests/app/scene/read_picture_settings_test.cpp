@@ -19,6 +19,13 @@ TEST(PictureSettings, AreDefaultsWhereTheSceneSaysNothing)
     EXPECT_FALSE(settings.output.geometryFormats.usda);
 }
 
+TEST(PictureSettings, EnergiesThatAreNotKeptAreNotDrawn)
+{
+    const std::string variants = "compare: {variants: {transfer.method: [pic, apic]}}\n";
+    EXPECT_TRUE(read(variants).compare.energyPlot);
+    EXPECT_FALSE(read("output: {data: [states]}\n" + variants).compare.energyPlot);
+}
+
 TEST(PictureSettings, GeometryIsPrintedAsItIsRead)
 {
     const app::PictureSettings s = read("output: {data: [geometry], geometry_format: [ply, usda]}\n");

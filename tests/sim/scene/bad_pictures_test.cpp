@@ -149,7 +149,7 @@ output: {data: [enrgy]}
     {"EnergyPlotWithoutEnergy", R"(grid: {cell: 0.1}
 liquid: {sources: [{shape: {ball: {center: [0, 0, 0], radius: 1}}}]}
 output: {data: [stats]}
-compare: {variants: {transfer.method: [pic, apic]}}
+compare: {products: [energy_plot], variants: {transfer.method: [pic, apic]}}
 )",
      "bad.yaml:3: output.data: has no energy, which compare.products: energy_plot draws; add energy, or take energy_plot out"},
     {"OutputEveryZero", R"(grid: {cell: 0.1}
