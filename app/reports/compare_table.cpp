@@ -44,6 +44,7 @@ std::string stageRows(const std::vector<RunResult>& runs)
     }
     table += "\n" + rule + "\n";
     for (int s = 0; s < sim::kStages; ++s) {
+        if (std::ranges::none_of(runs, [s](const RunResult& run) { return run.stageSeconds[s].has_value(); })) continue;
         table += fmt::format("| {} |", sim::kStageNames[s]);
         for (const auto& run : runs) {
             const auto& seconds = run.stageSeconds[s];

@@ -7,7 +7,7 @@
 
 namespace app {
 
-/// The comparison as Markdown: one row per run, then the median milliseconds of every stage, "-" where it never ran.
+/// The comparison as Markdown: one row per run, then the median milliseconds of each stage that ran, "-" where it did not.
 /// @param reference  label of the run that the column of ratios refers to; empty: no such column
 std::string compareTable(const std::string& title, const std::vector<RunResult>& runs, const std::string& reference);
 

@@ -28,8 +28,7 @@ std::string stageTable(const StageTimes& times)
 {
     std::string table = fmt::format("{:<20}{:>12}\n", "stage", "median ms");
     for (int s = 0; s < sim::kStages; ++s)
-        table +=
-            fmt::format("{:<20}{:>12}\n", sim::kStageNames[s], times.stages[s].empty() ? "-" : fmt::format("{:.3f}", times.medianMilliseconds(s)));
+        if (!times.stages[s].empty()) table += fmt::format("{:<20}{:>12.3f}\n", sim::kStageNames[s], times.medianMilliseconds(s));
     return table + fmt::format("{:<20}{:>12.3f}\n", "step", 1000.0 * median(times.total));
 }
 

@@ -28,7 +28,7 @@ struct StageTimes {
     double medianMilliseconds(int stage) const;  ///< median time [ms] of the steps in which it ran
 };
 
-/// "stage, median ms" as lines of text; "-" for stages that never ran.
+/// "stage, median ms" as lines of text, of stages that ran.
 std::string stageTable(const StageTimes& times);
 
 /// What report.json says about a run.
