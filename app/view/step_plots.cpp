@@ -66,7 +66,8 @@ void StepPlots::add(std::vector<LiveStep> steps)
 void StepPlots::draw() const
 {
     const sim::StepReport& report = last_.report;
-    ImGui::Text("%zu particles, %zu contacts", report.particles, report.fabric.contacts);
+    if (wall_.empty()) ImGui::TextUnformatted("no step yet");
+    else ImGui::Text("%zu particles, %zu contacts", report.particles, report.fabric.contacts);
     plot({"energy", "erg", "kinetic, potential and elastic energy of everything"}, energy_);
     plot({"mass error", "", "liquid in particles, in fabric and gone, relative to what came in, less 1", 2}, massError_);
     plot({"dt", "ms", "length of the step"}, milliseconds_);
