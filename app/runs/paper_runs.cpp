@@ -24,9 +24,11 @@ constexpr double kShownAt = 0.8;
 /// Confidence with which all intervals of a scene hold together.
 constexpr double kConfidence = 0.99;
 
-/// What the paper tells of its methods: how much energy they keep, and what they take.
-constexpr std::array<std::string_view, 5> kClaims = {"total_erg, at the end", "total_erg, mean", "kinetic_erg, mean", "published_erg, mean",
-                                                     "s_per_step"};
+/// What the paper tells of its methods: how much energy they keep, what of it goes to the fabric, how much liquid splashes off and leaves, and
+/// what they take.
+constexpr std::array<std::string_view, 9> kClaims = {
+    "total_erg, at the end",    "total_erg, mean", "kinetic_erg, mean", "published_erg, mean", "fabric_kinetic_erg, mean",
+    "fabric_elastic_erg, mean", "particles, mean", "s_per_step",        "peak_memory_mb"};
 
 const std::string& methodOf(const ComparedRun& run) { return std::ranges::find(kPaperVariants, run.setup.variant, &PaperVariant::name)->method; }
 
@@ -177,6 +179,23 @@ std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const st
     return areAlone ? std::vector<Ensemble>() : ensembles;
 }
 
+std::string paperHead(const std::vector<PaperResult>& results)
+{
+    std::size_t most = 1, fewest = 1;
+    for (const PaperResult& result : results)
+        for (const Ensemble& ensemble : result.ensembles) {
+            fewest = most == 1 ? ensemble.runs.size() : std::min(fewest, ensemble.runs.size());
+            most = std::max(most, ensemble.runs.size());
+        }
+    const std::string title = "# Scenes of the PolyPIC paper\n\n";
+    if (most < 2) return title;
+    const std::string runs = fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most);
+    return title + fmt::format(
+                       "Means ± standard deviations of {} runs each, with particles laid otherwise. Seconds, minutes and memory are of those "
+                       "that draw no pictures.\n\n",
+                       runs);
+}
+
 std::string paperTable(const std::vector<PaperResult>& results)
 {
     std::string table =
@@ -203,7 +222,7 @@ void makePaper(const std::vector<PaperResult>& results, const Backends& backends
 {
     for (const PaperResult& result : results)
         if (result.ensembles.size() > 1) writeDifferences(result.ensembles, result.scene.example, kConfidence, folder / result.scene.name);
-    const std::string table = paperTable(results) + paperClaims(results);
+    const std::string table = paperHead(results) + paperTable(results) + paperClaims(results);
     writeWhole(folder / "table.md", table);
     fmt::print("\n{}\n", table);
     drawEnergies(results, folder);

@@ -45,6 +45,9 @@ std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const st
 /// liquid and the vertices), of liquid ones, and of elements. Of repeats it has means ± standard deviations.
 std::string paperTable(const std::vector<PaperResult>& results);
 
+/// What stands above the table: a title, and with repeats what its numbers are.
+std::string paperHead(const std::vector<PaperResult>& results);
+
 /// Claims of the paper in which the methods differ, with confidence intervals (Markdown); "" without repeats.
 std::string paperClaims(const std::vector<PaperResult>& results);
 

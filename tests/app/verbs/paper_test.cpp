@@ -16,8 +16,8 @@ TEST_F(Program, PaperLeavesItsReportAndGoesOnWhereItWas)
     ASSERT_TRUE(end.ok()) << end.errorText;
     const auto out = folder.path() / "out/paper";
     const auto table = test::linesOf(out / "table.md");
-    ASSERT_EQ(table.size(), 2u + 2u * paperScenes().size());
-    EXPECT_TRUE(table[2].starts_with("| dam break (small), APIC | ")) << table[2];
+    ASSERT_EQ(table.size(), 4u + 2u * paperScenes().size());
+    EXPECT_TRUE(table[4].starts_with("| dam break (small), APIC | ")) << table[4];
     EXPECT_TRUE(table.back().starts_with("| splash yarn (medium), PolyPIC | ")) << table.back();
     EXPECT_TRUE(contentOf(out / "sheet.png").starts_with("\x89PNG"));
     for (const char* plot : {"energy_dam_break.png", "energy_splash.png"})
@@ -46,6 +46,8 @@ TEST_F(Program, PaperWithRepeatsTellsTheirSpread)
     for (std::size_t at = 0; (at = table.find("PolyPIC differs from APIC in ", at)) != std::string::npos; ++at) ++sentences;
     EXPECT_EQ(sentences, paperScenes().size()) << table;
     EXPECT_NE(table.find("| total_erg, at the end | "), std::string::npos) << table;
+    EXPECT_NE(table.find("| peak_memory_mb | "), std::string::npos) << "what the paper says of memory: " << table;
+    EXPECT_NE(table.find("Means ± standard deviations of 3 runs each"), std::string::npos) << table;
     const auto scene = out / "splash_cloth_small";
     EXPECT_EQ(reportOf("three/splash_cloth_small/repeats/paper_apic/002").at("status"), "done");
     EXPECT_FALSE(std::filesystem::exists(scene / "repeats/paper_apic/003"));
