@@ -85,9 +85,8 @@ std::string intervalOf(const MeanDifference& found)
 
 std::string differenceRow(const ColumnDifference& column, const std::string& verdict)
 {
-    return fmt::format("| {} | {:.5g} ± {:.2g} | {:.5g} ± {:.2g} | {:.4g} | {} | {} | {} |\n", markdownCell(column.name), column.a.mean,
-                       column.a.deviation, column.b.mean, column.b.deviation, column.found.difference, intervalOf(column.found),
-                       inPercent(column.found.difference, column.a), verdict);
+    return fmt::format("| {} | {} | {} | {:.4g} | {} | {} | {} |\n", markdownCell(column.name), textOf(column.a), textOf(column.b),
+                       column.found.difference, intervalOf(column.found), inPercent(column.found.difference, column.a), verdict);
 }
 
 /// A number of two ensembles that is to be compared.

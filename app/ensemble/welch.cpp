@@ -1,5 +1,7 @@
 #include "app/ensemble/welch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,6 +70,17 @@ Spread spreadOf(std::span<const double> numbers)
     }
     if (spread.count > 1 && spread.lowest < spread.highest) spread.deviation = std::sqrt(squares / static_cast<double>(spread.count - 1));
     return spread;
+}
+
+std::string textOf(const Spread& spread)
+{
+    constexpr double kSmallest = 1.0e-6, kLargest = 1.0e7;  // with exponents beyond
+    if (!(spread.deviation >= kSmallest) || std::max(std::abs(spread.mean), spread.deviation) >= kLargest)
+        return fmt::format("{:.5g} ± {:.2g}", spread.mean, spread.deviation);
+    const int lastDigit = static_cast<int>(std::floor(std::log10(spread.deviation))) - 1;
+    if (lastDigit <= 0) return fmt::format("{:.{}f} ± {:.{}f}", spread.mean, -lastDigit, spread.deviation, -lastDigit);
+    const double unit = std::pow(10.0, lastDigit);
+    return fmt::format("{:.0f} ± {:.0f}", unit * std::round(spread.mean / unit), unit * std::round(spread.deviation / unit));
 }
 
 double studentTail(double t, double degrees) { return incompleteBeta(0.5 * degrees, 0.5, degrees / (degrees + t * t)); }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 
 // Mean and spread of repeated runs, and whether two means differ.
 
@@ -23,6 +24,9 @@ struct Spread {
 };
 
 Spread spreadOf(std::span<const double> numbers);
+
+/// "880 ± 150": mean ± standard deviation, both as far as two digits of the latter go.
+std::string textOf(const Spread& spread);
 
 /// Probability that Student's t with so many degrees of freedom is at least this far from 0.
 double studentTail(double t, double degrees);

@@ -92,8 +92,7 @@ std::string cellOf(const std::vector<RunResult>& reports, fmt::string_view forma
     std::vector<double> numbers;
     for (const RunResult& report : reports) numbers.push_back(of(report));
     const Spread spread = spreadOf(numbers);
-    const std::string mean = fmt::vformat(format, fmt::make_format_args(spread.mean));
-    return spread.count > 1 ? fmt::format("{} ± {:.2g}", mean, spread.deviation) : mean;
+    return spread.count > 1 ? textOf(spread) : fmt::vformat(format, fmt::make_format_args(spread.mean));
 }
 
 std::string paperRow(const PaperResult& result, std::size_t run, const std::vector<RunResult>& reports)

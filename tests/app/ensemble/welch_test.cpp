@@ -26,6 +26,18 @@ TEST(Welch, QuantilesAreThoseOfTheTables)
         EXPECT_NEAR(studentQuantile(p, 2.0) / ((1.0 - p) * std::sqrt(2.0 / (p * (2.0 - p)))), 1.0, 1.0e-9);
 }
 
+TEST(Welch, MeansAreToldAsFarAsTheirDeviationsGo)
+{
+    const auto text = [](double mean, double deviation) { return textOf({.count = 5, .mean = mean, .deviation = deviation}); };
+    EXPECT_EQ(text(879.968, 151.3), "880 ± 150");
+    EXPECT_EQ(text(13746.9, 432.1), "13750 ± 430");
+    EXPECT_EQ(text(0.349793, 0.0084), "0.3498 ± 0.0084");
+    EXPECT_EQ(text(-10730.96, 0.2215), "-10730.96 ± 0.22");
+    EXPECT_EQ(text(7.0, 0.0), "7 ± 0");
+    EXPECT_EQ(text(3.21e12, 4.5e9), "3.21e+12 ± 4.5e+09");
+    EXPECT_EQ(text(2.5e-9, 1.3e-10), "2.5e-09 ± 1.3e-10");
+}
+
 TEST(Welch, SpreadLeavesOutWhatIsNoNumber)
 {
     const std::array<double, 5> numbers = {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0, 6.0, std::numeric_limits<double>::infinity()};
