@@ -51,6 +51,9 @@ std::string paperHead(const std::vector<PaperResult>& results);
 /// Claims of the paper in which the methods differ, with confidence intervals (Markdown); "" without repeats.
 std::string paperClaims(const std::vector<PaperResult>& results);
 
+/// The row of the sheet with a scene's pictures, each with the names of scene and method.
+OverviewRow overviewRow(const PaperResult& result);
+
 /// table.md, energy_dam_break.png and energy_splash.png with their scripts, and with pictures sheet.png: a row per scene. With repeats plots have
 /// bands, and what differs stands below the table and in each scene's compare.md.
 void makePaper(const std::vector<PaperResult>& results, const Backends& backends, bool withFrames, const std::filesystem::path& folder);

@@ -31,6 +31,19 @@ TEST_F(Program, PaperLeavesItsReportAndGoesOnWhereItWas)
     EXPECT_NE(contentOf(yarn / "report.json"), ofYarn) << "a frame was missing";
 }
 
+TEST(PaperSheet, NamesSceneAndMethodOfEachPicture)
+{
+    const test::TemporaryFolder folder;
+    ComparedRun apic, polypic;
+    apic.setup.variant = "paper_apic";
+    polypic.setup.variant = "paper_polypic";
+    apic.folder = polypic.folder = folder.path();
+    const OverviewRow row = overviewRow({paperScenes()[1], {}, {apic, polypic}, {}});
+    ASSERT_EQ(row.sequences.size(), 2u);
+    EXPECT_EQ(row.sequences[0].label, "splash cloth (small), APIC");
+    EXPECT_EQ(row.sequences[1].label, "splash cloth (small), PolyPIC");
+}
+
 /// Three runs of each: every number with its spread, and how the methods differ.
 TEST_F(Program, PaperWithRepeatsTellsTheirSpread)
 {
@@ -46,6 +59,7 @@ TEST_F(Program, PaperWithRepeatsTellsTheirSpread)
     for (std::size_t at = 0; (at = table.find("PolyPIC differs from APIC in ", at)) != std::string::npos; ++at) ++sentences;
     EXPECT_EQ(sentences, paperScenes().size()) << table;
     EXPECT_NE(table.find("| total_erg, at the end | "), std::string::npos) << table;
+    EXPECT_NE(table.find("| s_per_step, median | "), std::string::npos) << table;
     EXPECT_NE(table.find("| peak_memory_mb | "), std::string::npos) << "what the paper says of memory: " << table;
     EXPECT_NE(table.find("Means ± standard deviations of 3 runs each"), std::string::npos) << table;
     const auto scene = out / "splash_cloth_small";
