@@ -25,8 +25,11 @@ std::string contentHash(const LoadedScene& setup, bool asPanel, std::uint64_t pr
 
 std::uint64_t programHash()
 {
-    const std::string program = readWhole("/proc/self/exe");
-    return XXH64(program.data(), program.size(), 0);
+    static const std::uint64_t hash = [] {
+        const std::string program = readWhole("/proc/self/exe");
+        return XXH64(program.data(), program.size(), 0);
+    }();
+    return hash;
 }
 
 namespace {

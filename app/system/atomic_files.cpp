@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace app {
@@ -61,9 +61,12 @@ std::string readWhole(const std::filesystem::path& file)
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) throwSystemReason("read", file);
-    std::ostringstream content;
-    content << in.rdbuf();
-    return content.str();
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    std::string content(unknown ? 0 : size, '\0');
+    in.read(content.data(), static_cast<std::streamsize>(content.size()));
+    content.resize(static_cast<std::size_t>(in.gcount()));
+    return content.append(std::istreambuf_iterator<char>(in), {});  // of pipes and the like, whose size is not known
 }
 
 std::int64_t numberIn(std::string_view name, std::string_view before, std::string_view after)
