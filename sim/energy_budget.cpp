@@ -167,6 +167,13 @@ void EnergyBudget::pressedIn(double work)
     book(EnergyChange::Sources, work);
 }
 
+void EnergyBudget::heldByOpenings(double work)
+{
+    if (!changes_) return;
+    book(EnergyChange::Sources, work);
+    book(EnergyChange::Gravity, -work);
+}
+
 double EnergyBudget::workAgainst(const BlockArray<double>& pressure, double dt) const
 {
     if (!work_.obstacles.anyMoving()) return 0.0;

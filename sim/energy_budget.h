@@ -36,6 +36,8 @@ class EnergyBudget {
     void strainCorrected();
     /// Sources that press liquid into liquid, or openings, have done this work on it [erg].
     void pressedIn(double work);
+    /// Openings hold liquid whose weight had done this work on faces [erg]: it is theirs, too.
+    void heldByOpenings(double work);
     /// The step was reflected: particles get the pressure's impulse against it, too, and with it the work of solids, sources and openings.
     /// @param byOpenings  work of the latter [erg]
     void reflected(double dt, double byOpenings);

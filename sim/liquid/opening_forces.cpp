@@ -104,13 +104,17 @@ void Openings::press(const CutGrid& cut, const Push& push, const PressureFaces& 
 
 void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& faces, std::span<const OpeningMemory> memory, LiquidGrid& liquid)
 {
-    driven_ = 0.0;
+    driven_ = held_ = 0.0;
     for (const DrivenFace& driven : drivenFaces_) {
-        if (driven.by == DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
+        const bool isCopy = driven.by == DrivenFace::By::Copy;
+        if (!isPassed(cut, liquid, driven.face, driven.axis) || (isCopy && !isPassed(cut, liquid, driven.from, driven.axis))) continue;
+        const double fall = push.fallTime * push.gravity[driven.axis], mass = massOf(liquid, driven.face, driven.axis);
+        held_ += mass * fall * (liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell] - 0.5 * fall);
+        if (isCopy) continue;
         const bool meetsWall = driven.by == DrivenFace::By::VelocityInAir && liquid.inside.test(driven.from.block, driven.from.cell);
         const double to = meetsWall ? 0.0 : driven.velocity;
         double& u = liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell];
-        driven_ += 0.5 * massOf(liquid, driven.face, driven.axis) * (to - u) * (to + u);
+        driven_ += 0.5 * mass * (to - u) * (to + u);
         u = to;
     }
     for (std::size_t n = 0; n < sides_.size(); ++n) {

@@ -56,6 +56,8 @@ class Openings {
 
     /// Kinetic energy that the last drive() gave to faces of inlets [erg].
     double driven() const { return driven_; }
+    /// What weight had given to faces whose velocities come from openings, before the last drive(): nothing is left of it [erg].
+    double heldWeight() const { return held_; }
     /// Work of the openings' pressure on the liquid [erg].
     /// @param perPressure  impulse on a face amid liquid by the step of the pressure [cm^2 s]
     double pressureWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double>& pressure, double perPressure) const;
@@ -121,7 +123,7 @@ class Openings {
     std::vector<Side> sides_;
     std::vector<PlaneFace> planeFaces_;
     std::vector<DrivenFace> drivenFaces_;
-    double dx_ = 0.0, driven_ = 0.0;
+    double dx_ = 0.0, driven_ = 0.0, held_ = 0.0;
     Vec3 up_ = Vec3::Zero();  ///< against gravity; 0 without
 };
 

@@ -240,6 +240,7 @@ void passOpenings(StepContext& c)
     done += work.openings.pressureWork(c.cut(), work.grid, c.state.pressure, perPressure(c));
     c.report.inflowWork += done;
     c.energy.pressedIn(done);
+    c.energy.heldByOpenings(work.openings.heldWeight());
     for (std::size_t n = 0; n < c.scene.openings.size(); ++n) {
         work.openings.findInletCells(*c.plan.pressure, n, work.shutInlets);
         if (!isShutIn(n, work.shutInlets, c.state.grid, *c.plan.pressure)) continue;

@@ -99,6 +99,28 @@ TEST(Openings, AJetComesOutOfAFaceInTheOpen)
     }
 }
 
+/// Liquid that falls from a high inlet has no more energy than it came with: what holds it before it comes in is the opening, not its weight.
+TEST(Openings, LiquidThatFallsFromAnInletGainsNothing)
+{
+    for (Flume flume : flumes()) {
+        flume.depth = 12.0;
+        flume.roof = 16.0;
+        flume.level = 2.0;
+        Scene scene = flume.scene();
+        scene.sources.clear();
+        Simulation simulation(scene);
+        simulation.bookEnergy();
+        double given = 0.0, most = 0.0, kinetic = 0.0;
+        for (int step = 0; step < 40; ++step) {
+            const StepReport report = simulation.step(1.0e9);
+            given += (*report.energyChanges)[EnergyChange::Sources];
+            most = std::max(most, report.energies.total() - given);
+            kinetic = std::max(kinetic, report.energies.kinetic);
+        }
+        EXPECT_LT(most, 1.0e-3 * kinetic) << flume.text();
+    }
+}
+
 /// A stream with a free surface keeps its depth where the liquid beyond the outlet stands as high.
 TEST(Openings, AShallowStreamKeepsItsDepth)
 {
