@@ -39,6 +39,8 @@ std::optional<ProbeReading> ProbeReader::step(const SimulationHandle& simulation
 std::optional<double> ProbeReader::valueOf(const Probe& probe, std::span<const double> at)
 try {
     return probe.read(at);
+} catch (const NoStepYet&) {
+    return std::nullopt;  // as every reading of it is at the start, which needs no word
 } catch (const sim::FormulaError& error) {
     if (valueless_.insert(probe.name).second)
         spdlog::warn("output.probes: {} has no value at {:.6g} s and is left empty there: {}", probe.name, at[0], error.what());

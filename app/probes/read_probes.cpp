@@ -91,7 +91,7 @@ std::optional<Probes> readProbes(const LoadedScene& setup)
         v.required("readings", "a list of what is read, like readings: [{name: height, unit: cm, read: liquid_y}]");
         v.other("readings", "What is read");
     });
-    Probes probes{.every = setup.pictures.output.every, .all = {}, .measures = std::make_shared<Measures>(setup.scene)};
+    Probes probes{.every = setup.pictures.output.every, .all = {}, .measures = std::make_shared<Measures>(setup.scene, BeforeSteps::None)};
     const ReadingContext context = readContext(section, setup.scene, *probes.measures);
     if (node->find("every")) probes.every = readInterval(section, context);
     const std::string path = sim::joinPath(kProbesPath, "readings");

@@ -26,6 +26,13 @@ void Measures::afterStep()
     sumPressures();
 }
 
+/// Also while formulas are read, which find wrong names by it.
+double Measures::valueBeforeSteps() const
+{
+    if (simulation_ && beforeSteps_ == BeforeSteps::None) throw NoStepYet();
+    return 0.0;
+}
+
 std::vector<sim::FormulaNames::OfName> Measures::forces()
 {
     std::vector<sim::FormulaNames::OfName> names;
@@ -47,6 +54,7 @@ Impulse Measures::meanOn(const std::string& name, bool byLiquid, bool byContact)
     const auto obstacle = numberOf(name, forceNames_.obstacles), fabric = numberOf(name, forceNames_.fabrics);
     if (!obstacle && !fabric) throw FormulaError(fmt::format("there is no obstacle and no fabric \"{}\"", name));
     if (obstacle && fabric) throw FormulaError(fmt::format("both an obstacle and a fabric are called \"{}\"", name));
+    if (!(interval_.forces.time > 0.0)) return valueBeforeSteps() * Impulse();
     const std::size_t load = 2 * (obstacle ? *obstacle : forceNames_.obstacles.size() + *fabric);
     Impulse sum;
     if (byLiquid) sum += interval_.forces.mean(load);
@@ -66,7 +74,7 @@ Impulse Measures::meanOnPins(const std::string& name) const
         sum += interval_.forces.mean(first + i);
     }
     if (!isFound) throw FormulaError(fmt::format("no pins and no fabric with pins are called \"{}\"", name));
-    return sum;
+    return interval_.forces.time > 0.0 ? sum : valueBeforeSteps() * sum;
 }
 
 }  // namespace app

@@ -246,14 +246,14 @@ double Measures::sumOverFaces(Term&& term) const
 
 double Measures::flowError() const
 {
-    if (simulation_->state().step == 0) return 0.0;
+    if (simulation_->state().step == 0) return valueBeforeSteps();
     const double error = sumOverFaces([](double u, double flow) { return (u - flow) * (u - flow); });
     return std::sqrt(error / sumOverFaces([](double, double flow) { return flow * flow; }));
 }
 
 double Measures::flowPart() const
 {
-    if (simulation_->state().step == 0) return 0.0;
+    if (simulation_->state().step == 0) return valueBeforeSteps();
     return sumOverFaces([](double u, double flow) { return u * flow; }) / sumOverFaces([](double, double flow) { return flow * flow; });
 }
 
@@ -261,10 +261,11 @@ double Measures::flowPart() const
 double Measures::pressureAt(const Vec3& x) const
 {
     const sim::State& state = simulation_->state();
+    if (state.step == 0) return valueBeforeSteps();
     const Eigen::Vector3i cell = ((x - state.grid.origin) / state.grid.dx).array().floor().cast<int>();
     const Eigen::Vector3i block(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3);
     const int number = state.grid.find(block);
-    if (number == sim::BlockGrid::kNone || state.step == 0) return 0.0;
+    if (number == sim::BlockGrid::kNone) return 0.0;
     return state.pressure.block(number)[sim::cellInBlock(cell.x() & 7, cell.y() & 7, cell.z() & 7)];
 }
 
@@ -272,7 +273,7 @@ double Measures::front(int axis, double where) const
 {
     const sim::State& state = simulation_->state();
     const sim::BlockGrid& grid = state.grid;
-    if (state.step == 0) return 0.0;
+    if (state.step == 0) return valueBeforeSteps();
     const int fixed = axis == 1 ? 0 : 1, other = 3 - axis - fixed;
     const int layer = static_cast<int>(std::floor((where - grid.origin[fixed]) / grid.dx));
     std::map<int, std::set<int>> rows;

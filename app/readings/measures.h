@@ -40,6 +40,14 @@ struct PressureTotals {
     std::vector<double> sums;  ///< sums of each disc that is read, by their names in order: pressure times time [dyn s/cm^2]
 };
 
+/// What readings of steps are before the first one: 0, or none.
+enum class BeforeSteps { Zero, None };
+
+/// A reading of steps before the first one has been taken.
+struct NoStepYet : sim::FormulaError {
+    NoStepYet() : FormulaError("there was no step yet") {}
+};
+
 /// What is summed up since the last reading.
 struct IntervalTotals {
     ForceTotals forces;
@@ -55,8 +63,8 @@ struct IntervalTotals {
 ///  * at a point: velocity_a(x, y, z) (mean of the liquid within a cell of it, no value where there is none), saturation_at(x, y, z) (of the
 ///    vertex of fabric next to it);
 ///  * of control surfaces: flux("outlet") (liquid that goes through [g/s]), pressure_on("sensor") (of a disc: mean over it, and over the steps
-///    since the last reading, 0 before the first; a disc at a wall has the pressure of the liquid beside it, half a cell from the wall [dyn/cm^2]);
-///  * on the grid of the last step, 0 before the first: pressure(x, y, z) (that of this step alone: the second of two, of which the first reflects,
+///    since the last reading; a disc at a wall has the pressure of the liquid beside it, half a cell from the wall [dyn/cm^2]);
+///  * on the grid of the last step: pressure(x, y, z) (that of this step alone: the second of two, of which the first reflects,
 ///    has hardly any part of what stops moving liquid; pressure_on has it), front_x(y), front_z(y), front_y(x) (middle
 ///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
@@ -64,12 +72,16 @@ struct IntervalTotals {
 ///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest
 ///    vertex), wet_a(saturation) (from the lowest to the highest of vertices whose pores are that full), shadow_a("sheet") (area of the shadow
 ///    of a cloth in light along the axis [cm^2]);
-///  * forces [dyn] and torques about the origin [dyn cm], means over the steps since the last reading, 0 before the first: force_a("ball") and
+///  * forces [dyn] and torques about the origin [dyn cm], means over the steps since the last reading: force_a("ball") and
 ///    torque_a("ball") of an obstacle or a fabric by liquid and contact together, liquid_force_a, liquid_torque_a, contact_force_a and
 ///    contact_torque_a by one of them, pin_force_a("sheet") and pin_torque_a by a fabric on all its pins, or on those of that name.
+/// What is of the last step or of those since the last reading is before the first step 0 in validations, and has no value in probes.
 class Measures {
  public:
-    explicit Measures(const sim::Scene& scene) : density_(scene.settings.liquid.density), forceNames_(scene) {}
+    explicit Measures(const sim::Scene& scene, BeforeSteps beforeSteps = BeforeSteps::Zero)
+        : density_(scene.settings.liquid.density), beforeSteps_(beforeSteps), forceNames_(scene)
+    {
+    }
     Measures(const Measures&) = delete;
     Measures& operator=(const Measures&) = delete;
 
@@ -103,6 +115,7 @@ class Measures {
     void addPoints(Names& names);
     void addFabric(Names& names);
     void addFabricAlong(int axis, Names& names);
+    double valueBeforeSteps() const;
     double momentum(int axis) const;
     const sim::LiquidParticles& liquid() const;
     std::size_t vertex(double number) const;
@@ -125,6 +138,7 @@ class Measures {
     sim::Impulse meanOnPins(const std::string& name) const;
 
     double density_;  ///< density of the liquid [g/cm^3]
+    BeforeSteps beforeSteps_;
     ForceNames forceNames_;
     IntervalTotals interval_;
     std::map<std::string, ControlSurface> controlSurfaces_;

@@ -57,7 +57,7 @@ double Measures::meanPressureOn(const std::string& name)
     discs_.insert(name);
     const PressureTotals& totals = interval_.pressures;
     const auto number = static_cast<std::size_t>(std::distance(discs_.begin(), discs_.find(name)));
-    return totals.time > 0.0 && number < totals.sums.size() ? totals.sums[number] / totals.time : 0.0;
+    return totals.time > 0.0 && number < totals.sums.size() ? totals.sums[number] / totals.time : valueBeforeSteps();
 }
 
 sim::FormulaNames::OfName Measures::pressures()

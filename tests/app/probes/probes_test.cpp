@@ -180,7 +180,7 @@ output:
     const ChildExit end = drench({"run", "pool.yaml", "--no-video", "--no-frames", "--threads", "1", "--out", "pool"});
     ASSERT_EQ(end.code, 0) << end.errorText;
     const auto read = table("pool/probes.csv");
-    EXPECT_EQ(read.at("floor [-]").front(), 0.0) << "before the first step";
+    EXPECT_TRUE(std::isnan(read.at("floor [-]").front())) << "before the first step";
     // At the end steps are shorter than the one before, half of whose weight they bear.
     const std::size_t n = read.at("time_s").size() - 2;
     EXPECT_NEAR(read.at("floor [-]")[n], 981.0 * (3.0 - 0.5 * 0.25), 15.0);
@@ -213,6 +213,22 @@ output:
     EXPECT_NEAR(read.at("side [-]")[4], 981.0 * 2.0, 100.0);
     EXPECT_NEAR(read.at("resting [-]")[4], 40.0, 4.0);
     EXPECT_NEAR(read.at("middle [-]")[4], 0.0, 2.0);
+}
+
+/// What only steps tell has no value before the first, of which nothing needs to be said, and has one from then on.
+TEST_F(ProbedRuns, NothingIsReadOfStepsBeforeTheFirst)
+{
+    const std::string ofSteps = R"yaml({every: 4.0e-3, control_surfaces: {disc: {center: [0, 0.5, 0], normal: [0, 1, 0], radius: 0.3}}, readings: [
+        {name: force, read: force_y("sheet")}, {name: torque, read: liquid_torque_x("sheet")}, {name: pins, read: pin_force_y("sheet")},
+        {name: disc, read: pressure_on("disc")}, {name: pressure, read: "pressure(0, 0.8, 0)"}, {name: front, read: front_x(0.8)},
+        {name: height, read: liquid_y}]})yaml";
+    const ChildExit end = run("run", {"--no-frames", "--set", probes(ofSteps)});
+    ASSERT_EQ(end.code, 0) << end.errorText;
+    EXPECT_EQ(end.errorText.find("no value"), std::string::npos) << end.errorText;
+    for (const auto& [name, values] : table("run/probes.csv")) {
+        EXPECT_EQ(std::isnan(values.at(0)), name != "time_s" && name != "height [-]") << name;
+        EXPECT_FALSE(std::isnan(values.at(1))) << name;
+    }
 }
 
 /// A jet that a plate stops presses there by half its density times its speed squared, whether steps reflect or not: of two of which the first does
