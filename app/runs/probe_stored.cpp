@@ -7,6 +7,11 @@
 #include "sim/core/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <regex>
 
 namespace app {
 
@@ -39,25 +44,48 @@ class StoredSimulation : public SimulationHandle {
     const sim::Forces forces_;
 };
 
-/// What only a run under way can tell is not read of its states.
-void requireStored(const Probes& probes)
+/// What a formula asks for that states do not tell of; nothing where they tell all of it.
+std::string missingFrom(const std::string& formula)
 {
-    for (const Probe& probe : probes.all)
-        for (const char* means : {"force_", "torque_", "pressure_on"})
-            if (probe.read.text().find(means) != std::string::npos)
-                throw sim::InputError(fmt::format("output.probes: {}: stored states do not tell of {}: run the scene anew with output.probes",
-                                                  probe.name, std::string_view(means) == "pressure_on" ? "pressures on discs" : "forces"));
+    static const std::array<std::pair<const char*, std::regex>, 5> kinds = {{
+        {"forces", std::regex("(liquid_|contact_|pin_)?(force|torque)_[xyz]")},
+        {"pressures on discs", std::regex("pressure_on")},
+        {"energies", std::regex("kinetic|potential|energy|fabric_kinetic|elastic")},
+        {"fronts", std::regex("front_[xyz]")},
+        {"the flow", std::regex("flow_(error|part)")},
+    }};
+    static const std::regex name("\"[^\"]*\"|[A-Za-z_]\\w*");  // texts in quotes are names of things in the scene
+    for (std::sregex_iterator word(formula.begin(), formula.end(), name), none; word != none; ++word)
+        for (const auto& [kind, names] : kinds)
+            if (std::regex_match(word->str(), names)) return kind;
+    return {};
+}
+
+/// Leaves out what only a run under way can tell, and says in one line what that is. Throws InputError where nothing else is left.
+void keepStored(Probes& probes)
+{
+    std::vector<std::string> leftOut;
+    std::erase_if(probes.all, [&](const Probe& probe) {
+        const std::string missing = missingFrom(probe.read.text());
+        if (!missing.empty()) leftOut.push_back(fmt::format("{} ({})", probe.name, missing));
+        return !missing.empty();
+    });
+    if (leftOut.empty()) return;
+    const std::string text =
+        fmt::format("output.probes: left out {}: stored states do not tell of that, only a run with output.probes does", fmt::join(leftOut, ", "));
+    if (probes.all.empty()) throw sim::InputError(text);
+    spdlog::warn(text);
 }
 
 }  // namespace
 
 bool probeStoredRun(const StoredRun& run, const std::filesystem::path& out, const std::function<bool()>& stopWanted)
 {
-    const std::optional<Probes> probes = readProbes(run.setup);
+    std::optional<Probes> probes = readProbes(run.setup);
     if (!probes)
         throw sim::InputError(
             fmt::format("{}: its scene has no output.probes; give a file of them: drench probe FOLDER PROBES", run.folder.string()));
-    requireStored(*probes);
+    keepStored(*probes);
     makeFolder(out);
     const auto part = partFile(out / kProbesFile);
     try {

@@ -1,8 +1,7 @@
-// Numbers that are read as a scene runs, or afterwards from its states, by the program itself.
+// Numbers that are read as a scene runs, by the program itself.
 
-#include "app/system/csv.h"
 #include "app/system/gnuplot.h"
-#include "tests/app/checkpoint/small_scene.h"
+#include "tests/app/probes/probed_runs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,28 +9,6 @@
 
 namespace app::test {
 namespace {
-
-constexpr const char* kProbesOfAll = R"yaml({every: 4.0e-3,
-  control_surfaces: {plane: {center: [0, 0.5, 0], normal: [0, -1, 0]}, aside: {center: [9, 0.5, 0], normal: [0, -1, 0], radius: 1}},
-  readings: [{name: height, unit: cm, read: liquid_y}, {name: through, unit: g/s, read: flux("plane")}, {name: aside, unit: g/s, read: flux("aside")},
-             {name: wetness, unit: "-", read: "saturation_at(x, y, z)", along: {from: [-1, 0, 0], to: [1, 0, 0], points: 5}}, {read: "vertex_y(14)", unit: cm}]})yaml";
-
-class ProbedRuns : public testing::Test, protected SmallRuns {
- protected:
-    static std::string probes(const std::string& all) { return "output.probes=" + all; }
-    /// Columns of a table by name.
-    std::map<std::string, std::vector<double>> table(const std::string& file) const
-    {
-        std::map<std::string, std::vector<double>> columns;
-        const std::vector<std::string> lines = linesOf(folder / file), names = csvCells(lines.at(0));
-        for (std::size_t row = 1; row < lines.size(); ++row) {
-            const std::vector<std::string> cells = csvCells(lines[row]);
-            for (std::size_t c = 0; c < names.size(); ++c)
-                columns[names[c]].push_back(c < cells.size() && !cells[c].empty() ? std::stod(cells[c]) : std::nan(""));
-        }
-        return columns;
-    }
-};
 
 TEST_F(ProbedRuns, AreTheRunsThatTheyWouldBeWithout)
 {
@@ -71,29 +48,6 @@ TEST_F(ProbedRuns, StoppedAndGoneOnWithHaveTheSameReadings)
         EXPECT_EQ(canPlot(), std::filesystem::exists(folder / "half" / "probes.png"));
         std::filesystem::remove_all(folder / "whole");
         std::filesystem::remove_all(folder / "half");
-    }
-}
-
-/// What states hold is read from them as it was when the run was there.
-TEST_F(ProbedRuns, HaveTheSameReadingsAfterwards)
-{
-    ASSERT_EQ(run("run", {"--no-frames", "--set", probes(kProbesOfAll)}).code, 0);
-    writeFile(folder / "probes.yaml", kProbesOfAll);
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"probe", "run"}, {"probe", "run", "probes.yaml"}}) {
-        std::filesystem::remove_all(folder / "run" / "probes");
-        const ChildExit end = drench(arguments);
-        ASSERT_EQ(end.code, 0) << end.errorText;
-        const auto then = table("run/probes.csv"), now = table("run/probes/probes.csv");
-        ASSERT_EQ(now.size(), then.size());
-        for (const auto& [name, values] : now)
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                const std::vector<double>& times = then.at("time_s");
-                const auto row = std::ranges::find_if(times, [&](double t) { return std::abs(t - now.at("time_s")[i]) < 1e-9; });
-                if (row == times.end()) continue;  // a frame between two steps of one reflection
-                const double was = then.at(name)[static_cast<std::size_t>(row - times.begin())];
-                EXPECT_TRUE(values[i] == was || (std::isnan(values[i]) && std::isnan(was)))
-                    << name << " at " << *row << ": " << values[i] << ", " << was;
-            }
     }
 }
 
