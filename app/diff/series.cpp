@@ -108,6 +108,31 @@ DiffFinding diffRows(const Series& a, const Series& b, const RowPairs& rows)
 
 }  // namespace
 
+double valueAt(const Series& series, const std::vector<double>& values, double time)
+{
+    const auto above = std::ranges::lower_bound(series.times, time);
+    if (above == series.times.end()) return values.empty() ? kNothing : values.back();
+    const auto row = static_cast<std::size_t>(above - series.times.begin());
+    if (row == 0 || *above == time) return values[row];
+    const double before = series.times[row - 1];
+    return std::lerp(values[row - 1], values[row], (time - before) / (*above - before));
+}
+
+std::vector<double> percentOfDifference(const Series& ours, const Series& theirs, const std::string& column)
+{
+    std::vector<double> percent(ours.rows, kNothing);
+    const auto our = ours.values.find(column), their = theirs.values.find(column);
+    if (our == ours.values.end() || their == theirs.values.end() || ours.times.empty() || theirs.times.empty()) return percent;
+    double largest = 0.0;
+    for (const double x : their->second) largest = std::fmax(largest, std::abs(x));
+    for (std::size_t row = 0; row < ours.rows && largest > 0.0; ++row) {
+        const double time = ours.times[row];
+        if (time > theirs.times.back() && !isSameTime(time, theirs.times.back())) break;
+        percent[row] = 100.0 * (our->second[row] - valueAt(theirs, their->second, time)) / largest;
+    }
+    return percent;
+}
+
 std::vector<DiffFinding> diffSeries(const Series& a, const Series& b, const Tolerance& tolerance)
 {
     const RowPairs rows = pairRows(a, b);

@@ -32,6 +32,12 @@ Series readSeries(const std::filesystem::path& file);
 /// The numbers of report.json, without those that depend on the machine and the clock. Throws InputError.
 Series readReportNumbers(const std::filesystem::path& file);
 
+/// A column at a time, on the straight line between the rows around it, the last row beyond them; kNothing where one of them has no value.
+double valueAt(const Series& series, const std::vector<double>& values, double time);
+
+/// A column of ours less that of theirs at each of our times, in percent of their largest; kNothing where they have none, and after their end.
+std::vector<double> percentOfDifference(const Series& ours, const Series& theirs, const std::string& column);
+
 /// Largest difference in each column, relative to the largest number of A in the column (in the whole vector, for one of its
 /// components), and when it is. Rows of equal times are held against each other; without times those of equal number.
 std::vector<DiffFinding> diffSeries(const Series& a, const Series& b, const Tolerance& tolerance);

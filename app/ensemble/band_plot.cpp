@@ -147,7 +147,8 @@ std::vector<BandPanel> panelsOf(const std::vector<BandCurve>& curves)
 std::vector<BandPanel> perParticlePanels()
 {
     return {{"kinetic + potential + elastic", "erg per particle", {"per_particle_erg"}},
-            {"as published (no motion of the liquid)", "erg per particle", {"published_per_particle_erg"}}};
+            {"as published (no motion of the liquid)", "erg per particle", {"published_per_particle_erg"}},
+            {"total, less that of the first method", "% of the largest total", {kLessTheFirst}}};
 }
 
 void drawBands(const std::vector<BandCurve>& curves, const std::vector<BandPanel>& panels, const std::string& title, const fs::path& folder,

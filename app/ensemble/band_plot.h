@@ -25,7 +25,7 @@ struct BandPanel {
 /// Panels of the log that the curves are of: kinetic, potential and total energy, or one for each probe.
 std::vector<BandPanel> panelsOf(const std::vector<BandCurve>& curves);
 
-/// Energy per particle as the paper draws it, and beside it what the published program takes for it.
+/// Energy per particle as the paper draws it, beside it what the published program takes for it, and what totals are less that of the first method.
 std::vector<BandPanel> perParticlePanels();
 
 /// Draw folder/name.png, with folder/name.gp beside it: of each ensemble the mean, a dark band as wide as the standard deviation to both sides, and a

@@ -7,21 +7,6 @@
 
 namespace app {
 
-namespace {
-
-/// A column at a time, on the straight line between the rows around it; NaN where one of them has no value.
-double valueAt(const Series& series, const std::vector<double>& values, double time)
-{
-    const auto above = std::ranges::lower_bound(series.times, time);
-    if (above == series.times.end()) return values.empty() ? kNothing : values.back();
-    const auto row = static_cast<std::size_t>(above - series.times.begin());
-    if (row == 0 || *above == time) return values[row];
-    const double before = series.times[row - 1];
-    return std::lerp(values[row - 1], values[row], (time - before) / (*above - before));
-}
-
-}  // namespace
-
 const Band* Bands::find(const std::string& column) const
 {
     const auto found = std::ranges::find(all, column, &Band::column);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Columns that plots want and that are sums or ratios of others, so that they are not judged beside them.
-constexpr std::array<std::string_view, 3> kDerived = {"moving_erg", "per_particle_erg", "published_per_particle_erg"};
+constexpr std::array<std::string_view, 4> kDerived = {"moving_erg", "per_particle_erg", "published_per_particle_erg", kLessTheFirst};
 
 /// Numbers of a report that tell of the simulation itself, beside all below "forces/".
 constexpr std::array<std::string_view, 3> kOfReport = {"steps", "iterations/mean", "largest_cfl"};
@@ -155,6 +155,19 @@ Ensemble ensembleOf(const std::vector<EnsembleRun>& runs, const std::string& lab
     for (const char* log : {"energy.csv", "probes.csv"})
         if (auto all = logOf(ensemble, log); !all.empty()) ensemble.logs.push_back(std::move(all));
     return ensemble;
+}
+
+void addDifferences(const Ensemble& first, Ensemble& ensemble)
+{
+    if (first.logs.empty() || ensemble.logs.empty()) return;
+    for (std::size_t n = 0; n < ensemble.runs.size(); ++n) {
+        Series& energies = ensemble.logs.front()[n];
+        const auto pair = std::ranges::find(first.runs, ensemble.runs[n].draw, &EnsembleRun::draw);
+        if (pair == first.runs.end()) continue;
+        const Series& other = first.logs.front()[static_cast<std::size_t>(pair - first.runs.begin())];
+        const std::vector<double> percent = percentOfDifference(energies, other, "total_erg");
+        derive(energies, kLessTheFirst, [&](std::size_t row) { return percent[row]; });
+    }
 }
 
 bool isEnsemble(const fs::path& folder) { return fs::is_regular_file(folder / kEnsembleFile); }

@@ -10,6 +10,7 @@
 namespace app {
 
 inline constexpr const char* kEnsembleFile = "ensemble.yaml";
+inline constexpr const char* kLessTheFirst = "total_less_that_of_the_first_percent";
 
 /// A run of an ensemble.
 struct EnsembleRun {
@@ -40,6 +41,9 @@ struct EnsembleColumn {
 /// Runs that are done.
 /// Throws InputError where a log cannot be understood.
 Ensemble ensembleOf(const std::vector<EnsembleRun>& runs, const std::string& label);
+
+/// Energies get a column kLessTheFirst: the total less that of the run of another ensemble with the same draw, in percent of the largest there.
+void addDifferences(const Ensemble& first, Ensemble& ensemble);
 
 /// Is this the folder of an ensemble?
 bool isEnsemble(const std::filesystem::path& folder);

@@ -40,16 +40,39 @@ int axisScale(const std::vector<EnergyCurve>& curves)
     return largest > 0.0 ? 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0)) : 0;
 }
 
+/// How a curve is drawn; dashes show what lies below them.
+std::string look(std::size_t curve, const std::string& label)
+{
+    return fmt::format("with lines lw 2 lc rgb '{}' dt {} title {} noenhanced", kPlotColors[curve % kPlotColors.size()],
+                       curve % 2 == 0 ? "1" : "(8,4)", gnuplotText(label));
+}
+
 /// One panel: value(curve) is a gnuplot expression of the columns of energy.csv.
 template <class Value>
 std::string panel(const std::vector<EnergyCurve>& curves, const std::string& name, Value&& value)
 {
     std::string text = fmt::format("set title {}\nplot", gnuplotText(name));
     for (std::size_t i = 0; i < curves.size(); ++i)
-        text += fmt::format("{} {} skip 1 using 1:({}) with lines lw 2 lc rgb '{}' dt {} title {} noenhanced", i == 0 ? "" : ", \\\n    ",
-                            gnuplotText(curves[i].csv.generic_string()), value(curves[i]), kPlotColors[i % kPlotColors.size()],
-                            i % 2 == 0 ? "1" : "(8,4)", gnuplotText(curves[i].label));  // dashes show what lies below them
+        text += fmt::format("{} {} skip 1 using 1:({}) {}", i == 0 ? "" : ", \\\n    ", gnuplotText(curves[i].csv.generic_string()), value(curves[i]),
+                            look(i, curves[i].label));
     return text + "\n";
+}
+
+/// A panel of differences, with their numbers in the script itself; "" where there are none.
+std::string differencePanel(const std::vector<EnergyCurve>& curves)
+{
+    std::string blocks, lines;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const EnergyDifference& difference = curves[i].difference;
+        if (difference.times.empty()) continue;
+        blocks += fmt::format("$difference_{} << END\n", i);
+        for (std::size_t row = 0; row < difference.times.size(); ++row)
+            blocks += fmt::format("{:.9g},{:.6g}\n", difference.times[row], difference.percent[row]);
+        blocks += "END\n";
+        lines += fmt::format("{} $difference_{} using 1:2 {}", lines.empty() ? "" : ", \\\n    ", i, look(i, curves[i].label));
+    }
+    if (lines.empty()) return "";
+    return fmt::format("{}set title 'total, less that of the first method [% of the largest]'\nplot{}\n", blocks, lines);
 }
 
 /// What all panels have in common.
@@ -110,9 +133,10 @@ std::string perParticleScript(const std::vector<EnergyCurve>& curves, const std:
     const auto perParticle = [](const std::string& value) {
         return [=](const EnergyCurve& curve) { return fmt::format("{}/($6+{})", value, curve.vertices); };
     };
-    return head(2, title, "erg per particle", picture) + panel(curves, "kinetic + potential + elastic", perParticle(columnOfEnergies("total_erg"))) +
-           "unset key\nunset ylabel\n" + panel(curves, "as published (no motion of the liquid)", perParticle(columnOfEnergies("published_erg"))) +
-           "unset multiplot\n";
+    const std::string difference = differencePanel(curves);
+    return head(difference.empty() ? 2 : 3, title, "erg per particle", picture) +
+           panel(curves, "kinetic + potential + elastic", perParticle(columnOfEnergies("total_erg"))) + "unset key\nunset ylabel\n" +
+           panel(curves, "as published (no motion of the liquid)", perParticle(columnOfEnergies("published_erg"))) + difference + "unset multiplot\n";
 }
 
 void plotEnergies(const std::vector<EnergyCurve>& curves, const std::string& title, const std::filesystem::path& folder)

@@ -1,5 +1,6 @@
 #include "app/runs/paper_runs.h"
 
+#include "app/diff/series.h"
 #include "app/ensemble/band_plot.h"
 #include "app/ensemble/ensemble_products.h"
 #include "app/ensemble/vary.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace app {
 
@@ -34,6 +36,19 @@ const std::string& methodOf(const ComparedRun& run) { return std::ranges::find(k
 
 std::string nameOf(const PaperScene& scene, const ComparedRun& run) { return fmt::format("{}, {}", scene.example, methodOf(run)); }
 
+EnergyDifference differenceTo(const ComparedRun& first, const ComparedRun& run)
+{
+    const Series energies = readSeries(run.folder / "energy.csv");
+    const std::vector<double> percent = percentOfDifference(energies, readSeries(first.folder / "energy.csv"), "total_erg");
+    EnergyDifference difference;
+    for (std::size_t row = 0; row < percent.size(); ++row) {
+        if (std::isnan(percent[row])) continue;
+        difference.times.push_back(energies.times[row]);
+        difference.percent.push_back(percent[row]);
+    }
+    return difference;
+}
+
 void plot(const std::vector<PaperResult>& results, bool withFabric, const std::string& title, const std::filesystem::path& folder,
           const std::string& name)
 {
@@ -43,6 +58,7 @@ void plot(const std::vector<PaperResult>& results, bool withFabric, const std::s
         for (const ComparedRun& run : result.runs) {
             const auto report = readReport(run.folder);
             curves.push_back({run.setup.variant, nameOf(result.scene, run), run.folder / "energy.csv", report ? report->fabricVertices : 0});
+            if (&run != &result.runs.front()) curves.back().difference = differenceTo(result.runs.front(), run);
         }
     }
     if (!curves.empty()) plotPerParticle(curves, title, folder, name);
@@ -167,7 +183,9 @@ std::vector<Ensemble> ensemblesOf(const std::vector<ComparedRun>& runs, const st
         if (ensembles.back().runs.size() > 2) ensembles.back().timedFrom = 1;  // the first one has drawn pictures
     }
     const bool areAlone = std::ranges::any_of(ensembles, [](const Ensemble& ensemble) { return ensemble.runs.size() < 2; });
-    return areAlone ? std::vector<Ensemble>() : ensembles;
+    if (areAlone) return {};
+    for (std::size_t n = 1; n < ensembles.size(); ++n) addDifferences(ensembles.front(), ensembles[n]);
+    return ensembles;
 }
 
 std::string paperHead(const std::vector<PaperResult>& results)

@@ -2,12 +2,14 @@
 
 #include "app/checkpoint/checkpoint.h"
 #include "app/diff/diff.h"
+#include "app/diff/series.h"
 #include "app/runs/run_offline.h"
 #include "sim/core/check.h"
 #include "tests/app/fake_backends.h"
 #include "tests/app/temporary_folder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace app::test {
 namespace {
@@ -180,6 +182,19 @@ TEST_F(DiffRuns, ParticlesAndVerticesThatAreNotThereAreTold)
     EXPECT_TRUE(result.differs()) << "a particle is missing, whatever the tolerance";
     EXPECT_EQ(wordsOn("particles", result), "1 only in A at 0.5 s, particle 5 is one");
     EXPECT_EQ(wordsOn("positions of vertices", result), "0.5 cm apart, vertex 1 at 0.5 s");
+}
+
+/// Steps may be others, and one may end before the other.
+TEST_F(DiffRuns, DifferToAnotherByPercentOfTheLargest)
+{
+    writeFile(folder / "ours.csv", "time_s,total_erg\n0,-400\n0.05,-299\n0.2,98\n0.3,98\n");
+    writeFile(folder / "theirs.csv", "time_s,total_erg\n0,-400\n0.1,-200\n0.2,100\n");
+    const std::vector<double> percent = percentOfDifference(readSeries(folder / "ours.csv"), readSeries(folder / "theirs.csv"), "total_erg");
+    ASSERT_EQ(percent.size(), 4u);
+    EXPECT_EQ(percent[0], 0.0);
+    EXPECT_NEAR(percent[1], 0.25, 1e-9);
+    EXPECT_NEAR(percent[2], -0.5, 1e-9);
+    EXPECT_TRUE(std::isnan(percent[3]));
 }
 
 }  // namespace

@@ -112,5 +112,17 @@ TEST(EnergyPlot, ParticlesAreTheirColumns)
     EXPECT_NE(script.find("$" + column("published_erg") + "/($" + column("particles") + "+7)"), std::string::npos) << script;
 }
 
+/// Methods differ by less than a line is wide: what one has more than the first of its scene has a panel of its own.
+TEST(EnergyPlot, DifferencesToTheFirstMethodHaveAPanel)
+{
+    std::vector<EnergyCurve> curves = {{"apic", "APIC", "first.csv"}, {"polypic", "PolyPIC", "other.csv"}};
+    EXPECT_NE(perParticleScript(curves, "Splash", "p.png").find("multiplot layout 1,2"), std::string::npos);
+    curves[1].difference = {.times = {0.0, 0.05, 0.2}, .percent = {0.0, 0.25, -0.5}};
+    const std::string script = perParticleScript(curves, "Splash", "p.png");
+    EXPECT_NE(script.find("multiplot layout 1,3"), std::string::npos) << script;
+    EXPECT_NE(script.find("$difference_1 << END\n0,0\n0.05,0.25\n0.2,-0.5\nEND\n"), std::string::npos) << script;
+    EXPECT_EQ(script.find("$difference_0"), std::string::npos) << script;
+}
+
 }  // namespace
 }  // namespace app

@@ -22,6 +22,11 @@ TEST_F(Program, PaperLeavesItsReportAndGoesOnWhereItWas)
     EXPECT_TRUE(contentOf(out / "sheet.png").starts_with("\x89PNG"));
     for (const char* plot : {"energy_dam_break.png", "energy_splash.png"})
         EXPECT_EQ(std::filesystem::exists(out / plot), findProgram("gnuplot").has_value()) << plot;
+    if (findProgram("gnuplot")) {
+        const std::string script = contentOf(out / "energy_splash.gp");
+        for (const char* polypic : {"$difference_1 ", "$difference_3 ", "$difference_5 "})
+            EXPECT_NE(script.find(polypic), std::string::npos) << polypic << " to APIC of its scene: " << script;
+    }
 
     const auto cloth = out / "splash_cloth_small/paper_apic", yarn = out / "splash_yarn_small/paper_apic";
     const std::string ofCloth = contentOf(cloth / "report.json"), ofYarn = contentOf(yarn / "report.json");
@@ -67,6 +72,10 @@ TEST_F(Program, PaperWithRepeatsTellsTheirSpread)
     EXPECT_FALSE(std::filesystem::exists(scene / "repeats/paper_apic/003"));
     EXPECT_NE(contentOf(scene / "compare.md").find("**differs**"), std::string::npos);
     EXPECT_EQ(contentOf(out / "energy_splash.gp").find("energy.csv"), std::string::npos) << "bands of all runs, no curves of one";
+    if (findProgram("gnuplot")) {
+        const std::string script = contentOf(out / "energy_splash.gp"), panel = "set title 'total, less that of the first method' noenhanced\n";
+        EXPECT_NE(script.find(panel + "set ylabel '[% of the largest total]'"), std::string::npos) << script;
+    }
     EXPECT_NE(end.errorText.find(", with those to follow "), std::string::npos) << end.errorText;
 
     const std::string report = contentOf(scene / "repeats/paper_apic/002/report.json");
