@@ -15,7 +15,6 @@ namespace {
 constexpr int kRepeats = 2;             ///< the second for edges, and for distances that are only bounds
 constexpr double kAcrossSeams = 2.0;    ///< as far a way out of solids that touch is looked for [cells]
 constexpr int kContacts = 5;            ///< of a particle in one step: a corner has three surfaces, round ones are met again
-constexpr int kAhead = 3;               ///< cells whose particles are fetched before their turn
 constexpr double kResolution = 5.0e-3;  ///< of paths: thinner walls may be missed [cells]
 
 /// The nearest place outside of all solids, a little in front.
@@ -168,37 +167,6 @@ ClearBall clearAround(const CutGrid& cut, int block, const Vec3i& cell, double s
     return largest;
 }
 
-/// Both ends of the particles' straight ways.
-struct Places {
-    const std::array<AlignedArray<double>, kAxes>* before;  ///< null: they have no ways
-    const std::array<AlignedArray<double>, kAxes>& now;
-
-    bool areIn(const ClearBall& ball, std::size_t p) const { return ball.holds(now, p) && (before == nullptr || ball.holds(*before, p)); }
-    /// Have those of a particle, and of some after it, in the cache soon: they are far from those of the cell before.
-    void fetch(std::size_t p) const
-    {
-        for (const auto* x : {&now, before})
-            for (int a = 0; a < kAxes && x != nullptr; ++a) __builtin_prefetch(&(*x)[a][p]);
-    }
-};
-
-struct CellOfBlock {
-    int at, first, end;  ///< number of the cell, and of its particles
-};
-
-/// The cells of a block with particles whose middles are no farther from a solid.
-/// @return  their number
-int cellsNearSolids(const ParticleOrder& order, const CutGrid& cut, int block, double farthest, std::array<CellOfBlock, kBlockCells>& cells)
-{
-    int count = 0;
-    for (int c = 0; c < kBlockCells; ++c) {
-        const int* start = order.cells(block) + cellRank(c & 7, c >> 3 & 7, c >> 6);
-        if (start[0] == start[1] || (cut.field.nearSolid(block) && cut.field.centerDistance(block)[c] > farthest)) continue;
-        cells[count++] = {c, start[0], start[1]};
-    }
-    return count;
-}
-
 }  // namespace
 
 PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest,
@@ -212,15 +180,14 @@ PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut,
         const double sweep = cut.obstacles.anyMoving() ? cut.obstacles.farthestMove(cut.grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
         const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * cut.grid.dx + reach;
         if (!cut.field.nearSolid(b) && reach < ObstacleField::kExactDistance * cut.grid.dx) return pushed;
-        const Places places{before, particles.x};
-        std::array<CellOfBlock, kBlockCells> cells;
-        const int count = cellsNearSolids(order, cut, b, safe, cells);
-        for (int m = 0; m < count; ++m) {
-            if (m + kAhead < count) places.fetch(cells[m + kAhead].first);
-            const CellOfBlock& cell = cells[m];
-            const ClearBall clear = clearAround(cut, b, {cell.at & 7, cell.at >> 3 & 7, cell.at >> 6}, sweep);
-            for (int p = cell.first; p < cell.end; ++p)
-                if (!places.areIn(clear, p)) pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses);
+        for (int c = 0; c < kBlockCells; ++c) {
+            const Vec3i cell(c & 7, c >> 3 & 7, c >> 6);
+            const int* start = order.cells(b) + cellRank(cell.x(), cell.y(), cell.z());
+            if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
+            const ClearBall clear = clearAround(cut, b, cell, sweep);
+            for (int p = start[0]; p < start[1]; ++p)  // ways are straight: in the ball if both ends are
+                if (!clear.holds(particles.x, p) || (before != nullptr && !clear.holds(*before, p)))
+                    pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses);
         }
         return pushed;
     };
