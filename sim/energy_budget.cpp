@@ -122,6 +122,10 @@ void EnergyBudget::sorted()
 {
     isSorted_ = true;
     after(EnergyChange::Sources);
+    if (!changes_) return;
+    const double lag = staggeredPotentialOffset(state_, settings_);  // of what has come and gone, too
+    book(EnergyChange::Sources, lag - lag_);
+    lag_ = lag;
 }
 
 void EnergyBudget::toGrid()

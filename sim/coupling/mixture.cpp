@@ -58,7 +58,8 @@ std::optional<Mixture::SharedFaces> Mixture::findSharedFaces(const CutGrid& cut,
     return SharedFaces();
 }
 
-/// Which faces are shared, and how the phases move past each other there before anything acts on them.
+/// Which faces are shared, and how the phases move past each other there before anything acts on them. Faces at openings move as these say, whatever
+/// fabric does.
 void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, const LiquidGrid& liquid)
 {
     parallelFor(liquidBlock_.size(), [&](std::size_t n) {
@@ -71,6 +72,7 @@ void Mixture::findRelative(const Vec3& gravity, const ObstacleField& obstacles, 
             const double *fabric = onFaces_.mass.block(b, a), *v = onFaces_.velocity.block(b, a), *room = obstacles.room(m, a);
             for (int c = 0; c < kBlockCells; ++c) {
                 if (!(mass[c] > 0.0 && fabric[c] > 0.0 && room[c] > 0.0)) continue;
+                if (liquid.hasOpenings && liquid.atOpenings.test(m, c, a)) continue;
                 liquidMass_.block(b, a)[c] = mass[c];
                 relative_.block(b, a)[c] = u[c] - dt_ * gravity[a] - v[c];
                 predicted_.block(b, a)[c] = u[c];

@@ -23,6 +23,7 @@ struct LiquidGrid {
     BlockBits<> dry;                   ///< cells that are neither inside nor blocked by walls, also in blocks that do not exist
     bool hasOpenings = false;          ///< liquid passes faces of the domain
     BlockBits<> beyond;                ///< cells beyond the planes of openings, which have no pressure and are no air; only if `hasOpenings`
+    BlockBits<3> atOpenings;           ///< faces in the planes of openings and beyond, whose velocities are the openings'; only if `hasOpenings`
 
     /// Three numbers per cell for whoever needs them between two loops: the momenta, once the velocities are known.
     double* scratch(int block, int kind = 0) { return faces.sums.block(block, FaceFields::kMomentum + kind); }

@@ -105,12 +105,12 @@ void Openings::press(const CutGrid& cut, const Push& push, const PressureFaces& 
 void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& faces, std::span<const OpeningMemory> memory, LiquidGrid& liquid)
 {
     driven_ = held_ = 0.0;
+    fall_ = push.fallTime * push.gravity;
     for (const DrivenFace& driven : drivenFaces_) {
         const bool isCopy = driven.by == DrivenFace::By::Copy;
-        if (!isPassed(cut, liquid, driven.face, driven.axis) || (isCopy && !isPassed(cut, liquid, driven.from, driven.axis))) continue;
-        const double fall = push.fallTime * push.gravity[driven.axis], mass = massOf(liquid, driven.face, driven.axis);
+        if (isCopy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
+        const double fall = fall_[driven.axis], mass = massOf(liquid, driven.face, driven.axis);
         held_ += mass * fall * (liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell] - 0.5 * fall);
-        if (isCopy) continue;
         const bool meetsWall = driven.by == DrivenFace::By::VelocityInAir && liquid.inside.test(driven.from.block, driven.from.cell);
         const double to = meetsWall ? 0.0 : driven.velocity;
         double& u = liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell];
@@ -136,18 +136,21 @@ void Openings::keepMoved(const BlockArray<double, 3>& velocity)
         }
 }
 
-double Openings::carry(const CutGrid& cut, const LiquidGrid& liquid, BlockArray<double, 3>& velocity) const
+/// As far as the face that another moves like has been held against its weight, that one is.
+Openings::Carried Openings::carry(const CutGrid& cut, const LiquidGrid& liquid, BlockArray<double, 3>& velocity) const
 {
-    double gained = 0.0;
+    Carried carried;
     for (const DrivenFace& driven : drivenFaces_) {
         const int a = driven.axis;
         if (driven.by != DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, a) || !isPassed(cut, liquid, driven.from, a)) continue;
         const double to = velocity.block(driven.from.block, a)[driven.from.cell];
         double& u = velocity.block(driven.face.block, a)[driven.face.cell];
-        gained += 0.5 * massOf(liquid, driven.face, a) * (to - u) * (to + u);
+        const double mass = massOf(liquid, driven.face, a), held = fall_[a] != 0.0 ? std::clamp((u - to) / fall_[a], 0.0, 1.0) * fall_[a] : 0.0;
+        carried.gained += 0.5 * mass * (to - u) * (to + u);
+        carried.held += mass * held * (u - 0.5 * held);
         u = to;
     }
-    return gained;
+    return carried;
 }
 
 double Openings::inletWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double>& pressure, double perPressure) const

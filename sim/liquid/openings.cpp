@@ -99,11 +99,17 @@ void Openings::find(const BlockGrid& grid, LiquidGrid& liquid)
     liquid.hasOpenings = !empty();
     if (empty()) return;
     liquid.beyond.resize(grid.count());
-    std::fill_n(liquid.beyond.block(0), static_cast<std::size_t>(grid.count()) * BlockBits<>::kWords, std::uint64_t{0});
+    liquid.atOpenings.resize(grid.count());
+    const std::size_t words = static_cast<std::size_t>(grid.count()) * BlockBits<>::kWords;
+    std::fill_n(liquid.beyond.block(0), words, std::uint64_t{0});
+    std::fill_n(liquid.atOpenings.block(0), kAxes * words, std::uint64_t{0});
     for (Side& side : sides_) {
         findPlane(grid, side);
         findDriven(grid, side, liquid);
+        for (std::size_t n = side.firstFace; n < side.endFace; ++n)
+            liquid.atOpenings.set(planeFaces_[n].face.block, planeFaces_[n].face.cell, side.opening.axis);
     }
+    for (const DrivenFace& driven : drivenFaces_) liquid.atOpenings.set(driven.face.block, driven.face.cell, driven.axis);
 }
 
 /// Where a plane keeps the number of its face at a cell.

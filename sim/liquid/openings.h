@@ -43,9 +43,12 @@ class Openings {
     void drive(const CutGrid& cut, const Push& push, const PressureFaces& faces, std::span<const OpeningMemory> memory, LiquidGrid& liquid);
     /// The pressure has acted on velocities that are withheld from viscosity: what pushes there has done its work by then.
     void keepMoved(const BlockArray<double, 3>& velocity);
+    struct Carried {
+        double gained = 0.0;  ///< kinetic energy of the faces [erg]
+        double held = 0.0;    ///< what weight had given to them and is not left [erg]
+    };
     /// Velocities go on beyond outlets as in their planes.
-    /// @return  what faces gained of kinetic energy [erg]
-    double carry(const CutGrid& cut, const LiquidGrid& liquid, BlockArray<double, 3>& velocity) const;
+    Carried carry(const CutGrid& cut, const LiquidGrid& liquid, BlockArray<double, 3>& velocity) const;
     /// Weight has acted for a time on the velocities of the faces, images behind walls have had theirs withheld, and nothing else: outlets find
     /// where walls keep weight from the pressure.
     /// @param fall  what weight makes of velocities [cm/s]
@@ -56,7 +59,7 @@ class Openings {
 
     /// Kinetic energy that the last drive() gave to faces of inlets [erg].
     double driven() const { return driven_; }
-    /// What weight had given to faces whose velocities come from openings, before the last drive(): nothing is left of it [erg].
+    /// What weight had given to faces whose velocities are set, before the last drive(): nothing is left of it [erg].
     double heldWeight() const { return held_; }
     /// Work of the openings' pressure on the liquid [erg].
     /// @param perPressure  impulse on a face amid liquid by the step of the pressure [cm^2 s]
@@ -124,7 +127,8 @@ class Openings {
     std::vector<PlaneFace> planeFaces_;
     std::vector<DrivenFace> drivenFaces_;
     double dx_ = 0.0, driven_ = 0.0, held_ = 0.0;
-    Vec3 up_ = Vec3::Zero();  ///< against gravity; 0 without
+    Vec3 up_ = Vec3::Zero();    ///< against gravity; 0 without
+    Vec3 fall_ = Vec3::Zero();  ///< what weight made of velocities before the last drive() [cm/s]
 };
 
 }  // namespace sim

@@ -236,11 +236,12 @@ void passOpenings(StepContext& c)
     if (!c.plan.isWet || c.work.openings.empty()) return;
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
-    double done = work.openings.driven() + work.openings.carry(c.cut(), work.grid, work.grid.faces.velocity);
+    const Openings::Carried carried = work.openings.carry(c.cut(), work.grid, work.grid.faces.velocity);
+    double done = work.openings.driven() + carried.gained;
     done += work.openings.pressureWork(c.cut(), work.grid, c.state.pressure, perPressure(c));
     c.report.inflowWork += done;
     c.energy.pressedIn(done);
-    c.energy.heldByOpenings(work.openings.heldWeight());
+    c.energy.heldByOpenings(work.openings.heldWeight() + carried.held);
     for (std::size_t n = 0; n < c.scene.openings.size(); ++n) {
         work.openings.findInletCells(*c.plan.pressure, n, work.shutInlets);
         if (!isShutIn(n, work.shutInlets, c.state.grid, *c.plan.pressure)) continue;

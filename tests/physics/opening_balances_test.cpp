@@ -1,6 +1,9 @@
+#include "sim/fabric/pieces/generators.h"
 #include "sim/scene/load_scene.h"
 #include "sim/state_hash.h"
+#include "tests/physics/fabric_runs.h"
 #include "tests/physics/flume.h"
+#include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -74,6 +77,65 @@ domain: {box: {min: [-0.7089, 0, -0.7089], max: [0.7089, 8.155, 0.7089]}}
         EXPECT_GT(simulation.state().ledger.emittedMass, 0.0);
         EXPECT_LT(gained, 0.05 * kinetic) << method;
     }
+}
+
+/// Energy that liquid and fabric have beyond what they began with and what came from sources and openings, relative to the largest of motion.
+double gainBeyondOpenings(const Scene& scene, int steps)
+{
+    Simulation simulation(scene);
+    simulation.bookEnergy();
+    const double start = simulation.energies().total();
+    double given = 0.0, most = 0.0, kinetic = 0.0;
+    for (int n = 0; n < steps; ++n) {
+        const StepReport report = simulation.step(1.0e9);
+        given += (*report.energyChanges)[EnergyChange::Sources];
+        most = std::max(most, report.energies.total() - start - given);
+        kinetic = std::max(kinetic, report.energies.kinetic);
+    }
+    return most / kinetic;
+}
+
+/// What flies out above the level of an outlet falls as everywhere.
+TEST(Openings, LiquidThatFliesByAnOutletGainsNothing)
+{
+    for (Flume flume : flumes())
+        for (const double up : {-30.0, 0.0, 80.0}) {
+            flume.integrator = TimeIntegrator::Plain;  // of others every second state tells velocities of another time
+            flume.hasInlet = false;
+            flume.roof = 30.0;
+            flume.level = 1.0;
+            Scene scene = flume.scene();
+            scene.obstacles.clear();
+            scene.sources[0].shape = flume.box({flume.length - 7.0, 12.0, 0.0}, {flume.length - 3.0, 15.0, 3.0});
+            scene.sources[0].emissions[0].velocity = 2.0 * flume.velocity() + Vec3(0.0, up, 0.0);
+            EXPECT_LT(gainBeyondOpenings(scene, 40), 1.0e-3) << flume.text() << ", " << up << " cm/s up";
+        }
+}
+
+/// Wet threads across the stream, in the planes of openings and beyond: these move liquid there, whatever fabric is in it.
+TEST(Openings, FabricInThemGainsNothing)
+{
+    for (const FabricSolver solver : {FabricSolver::Vertex, FabricSolver::Grid})
+        for (const DragLaw drag : {DragLaw::Off, CouplingSettings().drag})
+            for (Flume flume : flumes()) {
+                flume.roof = 12.0;
+                flume.level = 2.0;
+                Scene scene = flume.scene();
+                scene.sources.clear();
+                scene.settings.fabric.solver = solver;
+                scene.settings.coupling.drag = drag;
+                for (const double along : {1.0, 1.5, 2.0, 2.5, 3.0, 3.5})
+                    for (const double across : {0.5, 1.5, 2.5}) {
+                        const Vec3 low = flume.at(along, 0.5, across), high = flume.at(along, 6.0, across);
+                        const double radius = 0.15 * flume.cell;
+                        FabricPiece thread = testing::pieceOf(strand(low, high, 9), testing::wool(), {radius, radius});
+                        thread.wetness = 0.8;
+                        thread.pins.push_back(pinned({0, 9}));
+                        scene.fabrics.push_back(thread);
+                    }
+                EXPECT_LT(gainBeyondOpenings(scene, 40), 1.0e-2)
+                    << flume.text() << (solver == FabricSolver::Grid ? ", grid" : ", vertex") << (drag == DragLaw::Off ? ", no drag" : "");
+            }
 }
 
 /// The floor bears the weight of what is between the planes, openings that of what is beyond, and what they push is not from solids: of what these
