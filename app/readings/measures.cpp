@@ -288,7 +288,7 @@ double Measures::front(int axis, double where) const
         while (cells.contains(end + 1)) ++end;
         last = std::max(last, end);
     }
-    return rows.empty() ? 0.0 : grid.origin[axis] + grid.dx * (last + 0.5);
+    return rows.empty() ? std::numeric_limits<double>::quiet_NaN() : grid.origin[axis] + grid.dx * (last + 0.5);
 }
 
 }  // namespace app

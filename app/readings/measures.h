@@ -66,7 +66,7 @@ struct IntervalTotals {
 ///    since the last reading; a disc at a wall has the pressure of the liquid beside it, half a cell from the wall [dyn/cm^2]);
 ///  * on the grid of the last step: pressure(x, y, z) (that of this step alone: the second of two, of which the first reflects,
 ///    has hardly any part of what stops moving liquid; pressure_on has it), front_x(y), front_z(y), front_y(x) (middle
-///    of the last cell of those with liquid that hang together with the first along x, z or y), and with `flow`
+///    of the last cell of those with liquid that hang together with the first along x, z or y; no value where there is none), and with `flow`
 ///    flow_error (rms distance of velocities from it, relative to it) and flow_part (how much of it there is);
 ///  * fabric: fabric_mass (dry), absorbed, fabric_a, fabric_va, fabric_speed (largest), fabric_kinetic, elastic,
 ///    saturation(number of a vertex), vertex_a(number), vertex_va(number), spread_a (from its lowest to its highest

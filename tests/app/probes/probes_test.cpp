@@ -185,6 +185,19 @@ TEST_F(ProbedRuns, NothingIsReadOfStepsBeforeTheFirst)
     }
 }
 
+/// There is no front where no liquid is, which is told once, in the place of a front at 0.
+TEST_F(ProbedRuns, FrontsHaveNoValueWhereNoLiquidIs)
+{
+    const ChildExit end =
+        run("run", {"--no-frames", "--set", probes("{every: 4.0e-3, readings: [{name: high, read: front_x(50)}, {name: low, read: front_x(0.8)}]}")});
+    ASSERT_EQ(end.code, 0) << end.errorText;
+    const auto read = table("run/probes.csv");
+    for (std::size_t n = 1; n < read.at("high [-]").size(); ++n) {
+        EXPECT_TRUE(std::isnan(read.at("high [-]")[n])) << n;
+        EXPECT_FALSE(std::isnan(read.at("low [-]")[n])) << n;
+    }
+}
+
 /// A jet that a plate stops presses there by half its density times its speed squared, whether steps reflect or not: of two of which the first does
 /// both tell only together how much.
 TEST_F(ProbedRuns, PressureOnADiscIsThatOfStagnation)
