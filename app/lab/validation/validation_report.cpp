@@ -1,5 +1,6 @@
 #include "app/lab/validation/validation_report.h"
 
+#include "app/lab/validation/validation_plot.h"
 #include "app/system/atomic_files.h"
 #include "app/system/gnuplot.h"
 #include "app/system/progress.h"
@@ -14,9 +15,6 @@ namespace app {
 
 namespace {
 
-/// What is compared with, as tables and plots call it.
-const char* knownAs(KnownFrom kind) { return kind == KnownFrom::Measured ? "measured" : "known"; }
-
 std::string withUnit(double value, const std::string& unit)
 {
     return std::isfinite(value) ? fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit) : "-";
@@ -27,45 +25,6 @@ std::string deviation(const Finding& finding)
     if (!std::isfinite(finding.expected) || !std::isfinite(finding.value)) return "-";
     const double error = finding.value - finding.expected;
     return finding.expected == 0.0 ? fmt::format("{:+.2g}", error) : fmt::format("{:+.2f} %", 100.0 * error / std::abs(finding.expected));
-}
-
-/// Is what is expected drawn beside the readings: where it is known at each, or is what one of them or their mean is
-/// compared with?
-bool hasLine(const Check& check) { return check.hasCurve() || (check.expect && check.statistic <= Statistic::Largest); }
-
-/// Label of the axis of readings: their unit where the check is about one of them or their mean, else what is read.
-std::string readingsLabel(const Check& check)
-{
-    const bool isOfReadings = check.statistic <= Statistic::Change || check.hasCurve();
-    return isOfReadings && !check.unit.empty() ? check.unit : check.read.text();
-}
-
-std::string panel(const CaseResult& result, std::size_t i)
-{
-    const Check& check = result.validation.checks[i];
-    const auto column = [&](int number) { return fmt::format("using ($1=={}?$2:NaN):{}", i, number); };
-    const std::string file = gnuplotText(result.name + ".csv");
-    const std::string abscissa = check.against.text() == "t" ? "time [s]" : check.against.text();
-    std::string text = fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nplot ", gnuplotText(check.name),
-                                   gnuplotText(abscissa), gnuplotText(readingsLabel(check)));
-    if (check.hasBand())
-        text += fmt::format("{0} skip 1 using ($1=={1}?$2:NaN):5:6 with filledcurves fc rgb '#dddddd' fs solid noborder title 'scatter', ", file, i);
-    if (hasLine(check))
-        text += fmt::format("{} skip 1 {} with lines lw 3 lc rgb '#aaaaaa' title '{}', ", file, column(4), knownAs(result.validation.kind));
-    return text + fmt::format("{} skip 1 {} with lines lw 2 lc rgb '{}' title 'found'\n", file, column(3), kPlotColors[2]);
-}
-
-std::string plotScript(const CaseResult& result, const std::string& picture)
-{
-    constexpr std::size_t kMostInRow = 4;
-    const std::size_t panels = result.readings.size(), rows = (panels + kMostInRow - 1) / kMostInRow, columns = (panels + rows - 1) / rows;
-    std::string text = fmt::format(
-        "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
-        "set multiplot layout {},{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
-        "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset format y '%.4g'\n",
-        std::max<std::size_t>(480, 400 * columns), 380 * rows + 40, gnuplotText(picture), rows, columns, gnuplotText(result.setup.scene.title));
-    for (std::size_t i = 0; i < panels; ++i) text += panel(result, i);
-    return text + "unset multiplot\n";
 }
 
 /// How a check came out: what was measured has a scatter, and models have limits.
@@ -145,7 +104,7 @@ void writeReadings(const CaseResult& result, const std::filesystem::path& folder
     writeWhole(folder / (result.name + ".csv"), csv);
     const auto enough = [](const auto& readings) { return readings.size() > 1; };
     if (canPlot() && std::ranges::all_of(result.readings, enough))
-        drawPlot(folder, result.name, [&](const std::string& picture) { return plotScript(result, picture); });
+        drawPlot(folder, result.name, [&](const std::string& picture) { return validationPlotScript(result, picture); });
 }
 
 }  // namespace app

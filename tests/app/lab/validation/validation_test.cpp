@@ -1,4 +1,5 @@
 #include "app/lab/validation/run_case.h"
+#include "app/lab/validation/validation_plot.h"
 #include "app/lab/validation/validation_report.h"
 #include "sim/core/check.h"
 #include "tests/app/fake_backends.h"
@@ -92,6 +93,23 @@ TEST(Validation, WhatIsSaidToBeOutsideIsTold)
     EXPECT_FALSE(plain.passes());
     EXPECT_NE(validationReport({plain}, false, false).find("| **outside** |"), std::string::npos);
     EXPECT_FALSE(fly("    - {read: liquid_x, take: period, at_most: 9, outside: it only flies}\n", {}, "  kind: measured\n").passes());
+}
+
+/// A paper draws a course once, with all that is known of it: the largest value, its time, and the band of another check of the same reading.
+TEST(Validation, ChecksOfOneReadingShareAPanel)
+{
+    const CaseResult result =
+        fly("    - {name: peak, unit: cm, read: liquid_x + 1, take: largest, expect: 1.1, tolerance: 0.2}\n"
+            "    - {name: its time, unit: s, read: liquid_x + 1, take: largest_at, expect: 0.04, within: 0.1}\n"
+            "    - {name: other, read: liquid_mass, expect: 2, within: 1}\n"
+            "    - {name: course, unit: cm, read: liquid_x + 1, take: share_inside, at_least: 0.5, table: [[0, 1, 0.9, 1.1], [1, 2, 1.9, 2.1]]}\n",
+            {}, "  kind: measured\n");
+    ASSERT_EQ(result.findings.size(), 4u) << result.failure;
+    EXPECT_EQ(panelsOf(result.validation.checks), (std::vector<std::vector<std::size_t>>{{0, 1, 3}, {2}}));
+    const std::string script = validationPlotScript(result, "flight.png");
+    for (const char* part : {"layout 1,2", "set title 'course'", "set ylabel '[cm]'", "title 'scatter'", "(0.04):($0==0?1:1.05)", "title 'found'"})
+        EXPECT_NE(script.find(part), std::string::npos) << part << "\n" << script;
+    EXPECT_EQ(script.find("set title 'peak'"), std::string::npos) << script;
 }
 
 TEST(Validation, WhatHasNoValueFails)
