@@ -176,7 +176,7 @@ TEST_F(ProbedRuns, NothingIsReadOfStepsBeforeTheFirst)
         {name: force, read: force_y("sheet")}, {name: torque, read: liquid_torque_x("sheet")}, {name: pins, read: pin_force_y("sheet")},
         {name: disc, read: pressure_on("disc")}, {name: pressure, read: "pressure(0, 0.8, 0)"}, {name: front, read: front_x(0.8)},
         {name: height, read: liquid_y}]})yaml";
-    const ChildExit end = run("run", {"--no-frames", "--set", probes(ofSteps)});
+    const ChildExit end = run("run", {"--no-frames", "--set", "time.duration=0.01", "--set", probes(ofSteps)});
     ASSERT_EQ(end.code, 0) << end.errorText;
     EXPECT_EQ(end.errorText.find("no value"), std::string::npos) << end.errorText;
     for (const auto& [name, values] : table("run/probes.csv")) {
@@ -185,11 +185,11 @@ TEST_F(ProbedRuns, NothingIsReadOfStepsBeforeTheFirst)
     }
 }
 
-/// There is no front where no liquid is, which is told once, in the place of a front at 0.
+/// There is no front where no liquid is, which is told, in the place of a front at 0.
 TEST_F(ProbedRuns, FrontsHaveNoValueWhereNoLiquidIs)
 {
-    const ChildExit end =
-        run("run", {"--no-frames", "--set", probes("{every: 4.0e-3, readings: [{name: high, read: front_x(50)}, {name: low, read: front_x(0.8)}]}")});
+    const ChildExit end = run("run", {"--no-frames", "--set", "time.duration=0.01", "--set",
+                                      probes("{every: 4.0e-3, readings: [{name: high, read: front_x(50)}, {name: low, read: front_x(0.8)}]}")});
     ASSERT_EQ(end.code, 0) << end.errorText;
     const auto read = table("run/probes.csv");
     for (std::size_t n = 1; n < read.at("high [-]").size(); ++n) {
