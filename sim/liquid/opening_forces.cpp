@@ -107,8 +107,7 @@ void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& 
     driven_ = held_ = 0.0;
     fall_ = push.fallTime * push.gravity;
     for (const DrivenFace& driven : drivenFaces_) {
-        const bool isCopy = driven.by == DrivenFace::By::Copy;
-        if (isCopy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
+        if (driven.by == DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
         const double fall = fall_[driven.axis], mass = massOf(liquid, driven.face, driven.axis);
         held_ += mass * fall * (liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell] - 0.5 * fall);
         const bool meetsWall = driven.by == DrivenFace::By::VelocityInAir && liquid.inside.test(driven.from.block, driven.from.cell);

@@ -125,6 +125,22 @@ inline void runFor(double time, Simulation& simulation)
     while (simulation.state().time < end) simulation.step(end);
 }
 
+/// Energy that liquid and fabric have beyond what they began with and what came from sources and openings, relative to the largest of motion.
+inline double gainBeyondOpenings(const Scene& scene, int steps)
+{
+    Simulation simulation(scene);
+    simulation.bookEnergy();
+    const double start = simulation.energies().total();
+    double given = 0.0, most = 0.0, kinetic = 0.0;
+    for (int n = 0; n < steps; ++n) {
+        const StepReport report = simulation.step(1.0e9);
+        given += (*report.energyChanges)[EnergyChange::Sources];
+        most = std::max(most, report.energies.total() - start - given);
+        kinetic = std::max(kinetic, report.energies.kinetic);
+    }
+    return most / kinetic;
+}
+
 /// Mass of all particles, of what came in and of what left.
 inline void expectBooksClose(const Simulation& simulation, const std::string& what)
 {
