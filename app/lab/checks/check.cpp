@@ -20,6 +20,14 @@ try {
     throw;
 }
 
+void readProfile(const Check& check, double time, std::vector<Sample>& readings)
+{
+    constexpr double kRounding = 1.0e-6;  // of a time that is a sum of steps
+    if (std::abs(time - *check.profileAt) > kRounding * *check.profileAt) return;
+    for (const Known& known : check.table)
+        readings.push_back({known.at, valueOf(check, std::array{time, known.at}), known.value, known.lower, known.upper});
+}
+
 }  // namespace
 
 Known Check::knownAt(double time, double at) const
@@ -34,15 +42,15 @@ Known Check::knownAt(double time, double at) const
     return {at, between(below.value, above.value, share), between(below.lower, above.lower, share), between(below.upper, above.upper, share)};
 }
 
-std::optional<Sample> readOnce(const Check& check, double time)
+void readNow(const Check& check, double time, std::vector<Sample>& readings)
 {
+    if (check.profileAt) return readProfile(check, time, readings);
     const std::array now = {time};
     const double at = check.against(now);
-    if (at < check.from || at > check.to) return std::nullopt;
+    if (at < check.from || at > check.to) return;
     const Known known = check.knownAt(time, at);
     const Sample reading{at, valueOf(check, now), known.value, known.lower, known.upper};
-    if (check.hasCurve() && !std::isfinite(reading.expected)) return std::nullopt;
-    return reading;
+    if (!check.hasCurve() || std::isfinite(reading.expected)) readings.push_back(reading);
 }
 
 Finding judge(const Check& check, std::span<const Sample> readings)

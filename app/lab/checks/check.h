@@ -32,6 +32,7 @@ struct Check {
     std::optional<sim::Formula> expect = {};  ///< expected value as a formula of the time
     std::vector<Known> table = {};            ///< measured, in its place
     std::optional<double> otherwise = {};     ///< what counts where a reading has no value
+    std::optional<double> profileAt = {};     ///< time at which a profile is read, at the places of the table [s]; none: read all the time
     std::string outside = {};                 ///< why it is known to be outside of what was measured; empty: it is not
     std::optional<double> tolerance = {};     ///< relative to what is expected
     std::optional<double> within = {};        ///< absolute bound of the difference
@@ -41,7 +42,7 @@ struct Check {
     bool hasCurve() const
     {
         using enum Statistic;
-        return statistic == MeanError || statistic == LargestError || statistic == RmsError || statistic == ShareInside;
+        return statistic == MeanError || statistic == LargestError || statistic == RmsError || statistic == RmsDifference || statistic == ShareInside;
     }
     /// Tells whether the table has a band around what was measured.
     bool hasBand() const { return !table.empty() && std::isfinite(table.front().lower); }
@@ -56,9 +57,9 @@ struct Finding {
     bool passes = false;
 };
 
-/// A reading of the simulation that `measures` looks at; nothing outside from … to. Throws FormulaError where it has no value and the check
-/// says nothing else.
-std::optional<Sample> readOnce(const Check& check, double time);
+/// Adds what is read of the simulation that `measures` looks at: one reading, but none outside from … to; of a profile one at each place of the
+/// table, when it is time. Throws FormulaError where there is no value and the check says nothing else.
+void readNow(const Check& check, double time, std::vector<Sample>& readings);
 
 Finding judge(const Check& check, std::span<const Sample> readings);
 

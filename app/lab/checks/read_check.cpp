@@ -55,13 +55,16 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
         v.formula("within", "Largest difference from expect, as it is");
         v.formula("at_most", "Largest value");
         v.formula("at_least", "Smallest value");
+        v.formula("at", "Time at which a profile is read, at the places s of the table; read is then a formula of s, too [s]");
         v.formula("otherwise", "What counts where a reading has no value, like a height where nothing is wet; left out: the run fails there");
         v.text("outside", outside, "Why what is found is known to be outside of what was measured: it is told and fails nothing");
     });
     const sim::SectionReader section(node, path);
+    sim::FormulaNames names = context.reading;
+    if (section.find("at")) names.variables.emplace_back("s");
     const auto readings = [&](const char* key, const char* otherwise) {
         const Node* at = section.find(key);
-        return at ? readFormula(*at, section.pathOf(key), context.reading) : sim::Formula(otherwise, context.reading);
+        return at ? readFormula(*at, section.pathOf(key), names) : sim::Formula(otherwise, names);
     };
     const auto constant = [&](const char* key) -> std::optional<double> {
         const Node* at = section.find(key);
@@ -79,6 +82,11 @@ Check readCheck(const Node& node, const std::string& path, const ReadingContext&
     check.atLeast = constant("at_least");
     check.otherwise = constant("otherwise");
     check.outside = outside;
+    check.profileAt = constant("at");
+    const auto isGiven = [&](const char* key) { return section.find(key) != nullptr; };
+    if (check.profileAt && (!isGiven("table") || std::ranges::any_of(std::array{"against", "from", "to", "expect"}, isGiven)))
+        sim::fail(section.locationOf("at"),
+                  section.pathOf("at") + ": a profile needs a table of its places and values, and no against, from, to or expect");
     return check;
 }
 

@@ -88,6 +88,13 @@ double rmsError(std::span<const Sample> all)
     return std::sqrt(error / size);
 }
 
+double rmsDifference(std::span<const Sample> all)
+{
+    double sum = 0.0;
+    for (const Sample& r : all) sum += (r.value - r.expected) * (r.value - r.expected);
+    return std::sqrt(sum / static_cast<double>(all.size()));
+}
+
 double shareInside(std::span<const Sample> all)
 {
     const auto inside = std::ranges::count_if(all, [](const Sample& r) { return r.lower <= r.value && r.value <= r.upper; });
@@ -127,6 +134,7 @@ double statisticOf(Statistic what, std::span<const Sample> all, double level)
         }
         case Statistic::LargestError: return std::ranges::max(errors(all));
         case Statistic::RmsError: return rmsError(all);
+        case Statistic::RmsDifference: return rmsDifference(all);
         case Statistic::ShareInside: return shareInside(all);
         case Statistic::Reach: return reach(all, level);
         case Statistic::SmallestAt: return std::ranges::min_element(all, byValue)->at;

@@ -22,19 +22,20 @@ enum class Statistic {
     Mean,
     Smallest,
     Largest,
-    Change,        ///< last value less the first
-    Slope,         ///< slope of the straight line through them (least squares)
-    Exponent,      ///< slope of ln value over ln at
-    Rate,          ///< rate at which values decay: −slope of ln |value|
-    EnvelopeRate,  ///< rate of the peaks between passings of the mean
-    Period,        ///< twice the mean distance of passings of the mean
-    MeanError,     ///< mean of |value / expected − 1|
-    LargestError,  ///< largest of |value / expected − 1|
-    RmsError,      ///< root mean square of value − expected, relative to that of how far the latter goes from its first
-    ShareInside,   ///< share of readings inside the band that was measured
-    Reach,         ///< place where they first pass a level upwards
-    SmallestAt,    ///< place where they are smallest
-    LargestAt,     ///< place where they are largest
+    Change,         ///< last value less the first
+    Slope,          ///< slope of the straight line through them (least squares)
+    Exponent,       ///< slope of ln value over ln at
+    Rate,           ///< rate at which values decay: −slope of ln |value|
+    EnvelopeRate,   ///< rate of the peaks between passings of the mean
+    Period,         ///< twice the mean distance of passings of the mean
+    MeanError,      ///< mean of |value / expected − 1|
+    LargestError,   ///< largest of |value / expected − 1|
+    RmsError,       ///< root mean square of value − expected, relative to that of how far the latter goes from its first
+    RmsDifference,  ///< root mean square of value − expected
+    ShareInside,    ///< share of readings inside the band that was measured
+    Reach,          ///< place where they first pass a level upwards
+    SmallestAt,     ///< place where they are smallest
+    LargestAt,      ///< place where they are largest
 };
 
 /// Statistics as scene files write them.
@@ -54,6 +55,7 @@ inline std::span<const sim::Choice<Statistic>> choicesOf(Statistic)
                                                       {"mean_error", Statistic::MeanError},
                                                       {"largest_error", Statistic::LargestError},
                                                       {"rms_error", Statistic::RmsError},
+                                                      {"rms_difference", Statistic::RmsDifference},
                                                       {"share_inside", Statistic::ShareInside},
                                                       {"reach", Statistic::Reach},
                                                       {"smallest_at", Statistic::SmallestAt},

@@ -64,8 +64,7 @@ Outcome runOnce(const LoadedScene& setup, const Precision& precision, const std:
     Outcome outcome;
     outcome.errors.resize(checks.size());
     const auto read = [&](double time) {
-        for (std::size_t i = 0; i < checks.size(); ++i)
-            if (const auto reading = readOnce(checks[i], time)) outcome.errors[i].push_back(*reading);
+        for (std::size_t i = 0; i < checks.size(); ++i) readNow(checks[i], time, outcome.errors[i]);
         if (precision.energy) outcome.energies.push_back({time, (*precision.energy)(std::array{time}), 0.0});
         precision.measures->startInterval();
     };

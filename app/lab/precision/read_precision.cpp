@@ -105,6 +105,7 @@ std::vector<Check> errorsIn(const sim::SectionReader& section, const ReadingCont
         errors.push_back(readCheck(node.items[i], path, context, fmt::format("error {}", i + 1)));
         const Check& check = errors.back();
         if (!check.outside.empty()) sim::fail(node.items[i].location, path + ".outside: is for validate, which tells of measurements");
+        if (check.profileAt) sim::fail(node.items[i].location, path + ".at: profiles are for validate");
         if (!check.expect && !check.hasCurve())
             sim::fail(node.items[i].location, path + ": needs expect, or take: rms_error to be held against a converged run");
     }

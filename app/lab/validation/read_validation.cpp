@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace app {
 
 namespace {
@@ -19,9 +21,20 @@ void requireVerdict(const Check& check, const Node& node, const std::string& pat
     if (check.statistic == Statistic::ShareInside && !check.hasBand())
         sim::fail(node.location, path + ": share_inside needs a table with a band, like [[0, 1, 0.9, 1.1], [0.5, 1.2, 1.1, 1.4]]");
     if (check.hasCurve()) return;
-    if (!check.table.empty()) sim::fail(node.location, path + ": a table is compared by take: mean_error, largest_error, rms_error or share_inside");
+    if (!check.table.empty())
+        sim::fail(node.location, path + ": a table is compared by take: mean_error, largest_error, rms_error, rms_difference or share_inside");
     if (check.expect && !hasTolerance) sim::fail(node.location, path + ": expect needs tolerance (relative) or within (absolute)");
     if (!expects && !hasBound) sim::fail(node.location, path + ": needs expect with a tolerance, at_most, or at_least");
+}
+
+/// Profiles are read at times of readings.
+void requireReading(const Check& check, double start, double every, const Node& node, const std::string& path)
+{
+    constexpr double kRounding = 1.0e-6;
+    if (!check.profileAt) return;
+    const double intervals = (*check.profileAt - start) / every;
+    if (intervals < 0.5 || std::abs(intervals - std::round(intervals)) > kRounding * intervals)
+        sim::fail(node.location, fmt::format("{}.at: nothing is read at {:g} s: needs a multiple of every, {:g} s", path, *check.profileAt, every));
 }
 
 Check checkIn(const Node& node, std::size_t index, KnownFrom kind, const ReadingContext& context)
@@ -62,7 +75,11 @@ std::optional<Validation> readValidation(const LoadedScene& setup)
     section.required("checks", "a list of what is compared, like checks: [{read: liquid_y, expect: 1, tolerance: 0.01}]");
     const Node& checks = *section.find("checks");
     if (!checks.isList() || checks.items.empty()) sim::fail(checks.location, "validate.checks: needs a list of at least one check");
-    for (std::size_t i = 0; i < checks.items.size(); ++i) validation.checks.push_back(checkIn(checks.items[i], i, validation.kind, context));
+    for (std::size_t i = 0; i < checks.items.size(); ++i) {
+        validation.checks.push_back(checkIn(checks.items[i], i, validation.kind, context));
+        requireReading(validation.checks.back(), setup.scene.settings.time.start, validation.every, checks.items[i],
+                       fmt::format("validate.checks.{}", i));
+    }
     return validation;
 }
 

@@ -13,8 +13,7 @@ namespace {
 
 void readAll(const Validation& validation, double time, CaseResult& result)
 {
-    for (std::size_t i = 0; i < validation.checks.size(); ++i)
-        if (const auto reading = readOnce(validation.checks[i], time)) result.readings[i].push_back(*reading);
+    for (std::size_t i = 0; i < validation.checks.size(); ++i) readNow(validation.checks[i], time, result.readings[i]);
 }
 
 void runAndRead(const LoadedScene& setup, const Backends& backends, const std::function<bool()>& stopWanted, CaseResult& result)

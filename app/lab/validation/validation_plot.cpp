@@ -34,8 +34,10 @@ std::string shortText(const std::string& formula)
 
 std::string labelOf(const std::string& text) { return gnuplotText(text) + " noenhanced"; }
 
-std::string abscissaLabel(const std::string& against)
+std::string abscissaLabel(const Check& check)
 {
+    if (check.profileAt) return labelOf("s [cm]");
+    const std::string& against = check.against.text();
     if (against == "t") return labelOf("time [s]");
     const bool isShifted = against.starts_with("t - ") || against.starts_with("t + ");
     return labelOf(isShifted ? against + " [s]" : shortText(against));
@@ -114,8 +116,8 @@ std::string panel(const CaseResult& result, const std::vector<std::size_t>& numb
 {
     std::vector<const Check*> checks;
     for (const std::size_t i : numbers) checks.push_back(&result.validation.checks[i]);
-    return fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nplot {}\n", labelOf(titleOf(checks)),
-                       abscissaLabel(checks.front()->against.text()), readingsLabel(checks), Panel(result, numbers).text());
+    return fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nplot {}\n", labelOf(titleOf(checks)), abscissaLabel(*checks.front()),
+                       readingsLabel(checks), Panel(result, numbers).text());
 }
 
 }  // namespace
@@ -128,7 +130,8 @@ std::vector<std::vector<std::size_t>> panelsOf(const std::vector<Check>& checks)
     for (std::size_t i = 0; i < checks.size(); ++i) {
         const auto same = std::ranges::find_if(panels, [&](const auto& panel) {
             const Check& first = checks[panel.front()];
-            return first.read.text() == checks[i].read.text() && first.against.text() == checks[i].against.text();
+            return first.read.text() == checks[i].read.text() && first.against.text() == checks[i].against.text() &&
+                   first.profileAt == checks[i].profileAt;
         });
         if (same == panels.end()) panels.push_back({i});
         else same->push_back(i);

@@ -41,7 +41,8 @@ std::string rowOf(const CaseResult& result, std::size_t i)
 {
     const Check& check = result.validation.checks[i];
     const Finding& finding = result.findings[i];
-    const std::string unit = check.hasCurve() ? "" : check.unit;  // errors and shares have none
+    const std::string unit =
+        check.hasCurve() && check.statistic != Statistic::RmsDifference ? "" : check.unit;  // relative errors and shares have none
     return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", result.name, check.name, withUnit(finding.value, unit),
                        withUnit(finding.expected, unit), deviation(finding), bounds(check), verdict(result, i));
 }

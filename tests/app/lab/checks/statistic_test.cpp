@@ -61,6 +61,12 @@ TEST(Statistic, RmsErrorIsRelativeToTheWayOfWhatIsKnown)
     EXPECT_NEAR(statisticOf(Statistic::RmsError, all), 2.0 / 5.0, 1.0e-12);
 }
 
+TEST(Statistic, RmsDifferenceIsThatOfWhatIsReadAndKnown)
+{
+    const std::vector<Sample> all = {{0, 2.0, 2.0}, {1, 5.0, 8.0}, {2, 8.0, 4.0}};
+    EXPECT_NEAR(statisticOf(Statistic::RmsDifference, all), 5.0 / std::sqrt(3.0), 1.0e-12);
+}
+
 TEST(Statistic, ShareInsideCountsReadingsInTheBandWithItsEnds)
 {
     const std::vector<Sample> all = {{0, 1.0, 1.5, 1.0, 2.0}, {1, 2.1, 1.5, 1.0, 2.0}, {2, 2.9, 3.0, 2.8, 3.1}, {3, 2.7, 3.0, 2.8, 3.1}};

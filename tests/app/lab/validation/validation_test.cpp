@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace app {
 namespace {
 
@@ -65,6 +67,27 @@ TEST(Validation, ReadingsAreHeldAgainstTheBandThatWasMeasured)
     EXPECT_DOUBLE_EQ(result.findings[0].value, 0.75);
     EXPECT_TRUE(result.findings[0].passes);
     EXPECT_FALSE(result.findings[1].passes);
+}
+
+/// At 0.03 s the toy is at 0.03; what is read there at 0, 1 and 4 is 0.03, 1.03 and 4.03.
+TEST(Validation, ProfilesAreReadOnceAtThePlacesOfTheirTable)
+{
+    const std::string profile = "read: liquid_x + s, take: rms_difference, at_most: 0.11, table: [[0, 0.03], [1, 1.13], [4, 3.88, 3.8, 3.9]]";
+    const std::string banded = "read: liquid_x + s, take: share_inside, at_least: 0.6, table: [[0, 0, 0, 0.1], [1, 1, 0.9, 1.1], [4, 3, 2, 4]]";
+    const std::string plain = "read: liquid_x + s, unit: cm, take: rms_difference, at_most: 0.11, table: [[0, 0.03], [1, 1.13], [4, 3.88]]";
+    EXPECT_THROW(fly("    - {at: 0.03, " + profile + "}\n"), sim::InputError) << "rows have a band or none";
+    const CaseResult result = fly("    - {at: 0.03, name: then, " + plain + "}\n    - {at: 0.05, name: later, " + plain + "}\n    - {at: 0.03, " +
+                                  banded + "}\n    - {read: liquid_x, at_most: 1}\n");
+    ASSERT_EQ(result.findings.size(), 4u) << result.failure;
+    ASSERT_EQ(result.readings[0].size(), 3u);
+    EXPECT_EQ(result.readings[0][2].at, 4.0);
+    EXPECT_NEAR(result.readings[0][2].value, 4.03, 1.0e-12);
+    EXPECT_NEAR(result.findings[0].value, std::sqrt((0.1 * 0.1 + 0.15 * 0.15) / 3.0), 1.0e-12);
+    EXPECT_NEAR(result.findings[1].value, std::sqrt((0.02 * 0.02 + 0.08 * 0.08 + 0.17 * 0.17) / 3.0), 1.0e-12);
+    EXPECT_NEAR(result.findings[2].value, 2.0 / 3.0, 1.0e-12);
+    EXPECT_EQ(panelsOf(result.validation.checks).size(), 3u) << "profiles of two times have two panels";
+    EXPECT_NE(validationPlotScript(result, "flight.png").find("set xlabel 's [cm]'"), std::string::npos);
+    EXPECT_NE(findingsTable({result}).find("| then | 0.10408 cm |"), std::string::npos) << findingsTable({result});
 }
 
 TEST(Validation, ReadingsWithoutAValueAreWhatTheCheckSays)
@@ -157,7 +180,12 @@ TEST(Validation, MistakesNameTheirLine)
         {"  every: 1\n  checks:\n    - {read: speed, take: mean_error, at_most: 1}\n",
          "case.yaml:5: validate.checks.0: an error needs expect or table"},
         {"  every: 1\n  checks:\n    - {read: speed, take: last, table: [[0, 1]], at_most: 1}\n",
-         "case.yaml:5: validate.checks.0: a table is compared by take: mean_error, largest_error, rms_error or share_inside"},
+         "case.yaml:5: validate.checks.0: a table is compared by take: mean_error, largest_error, rms_error, rms_difference or share_inside"},
+        {"  every: 1\n  checks:\n    - {read: s, at: 1, at_most: 1}\n", "case.yaml:5: validate.checks.0.at: a profile needs a table"},
+        {"  every: 1\n  checks:\n    - {read: s, at: 1.5, take: rms_error, table: [[0, 1], [1, 2]], at_most: 1}\n",
+         "case.yaml:5: validate.checks.0.at: nothing is read at 1.5 s: needs a multiple of every, 1 s"},
+        {"  every: 1\n  checks:\n    - {read: s, at: 1, from: 0, take: rms_error, table: [[0, 1], [1, 2]], at_most: 1}\n",
+         "case.yaml:5: validate.checks.0.at: a profile needs a table"},
         {"  every: 1\n  checks:\n    - {read: speed, take: share_inside, table: [[0, 1], [1, 2]], at_least: 0.8}\n",
          "case.yaml:5: validate.checks.0: share_inside needs a table with a band, like [[0, 1, 0.9, 1.1]"},
         {"  every: 1\n  checks:\n    - {read: speed, take: share_inside, table: [[0, 1, 0, 2], [1, 2]], at_least: 0.8}\n",
