@@ -60,13 +60,59 @@ float walk(const stbtt_fontinfo& info, std::string_view text, float scale, Visit
     return pen;
 }
 
-void blendGlyph(Image& image, const std::vector<unsigned char>& coverage, const PixelBox& box, Rgb color)
+/// How much of each pixel of a box a glyph covers, 0 to 255.
+struct Coverage {
+    PixelBox box;
+    std::vector<unsigned char> values;
+
+    unsigned char at(int x, int y) const
+    {
+        return x < 0 || y < 0 || x >= box.width || y >= box.height ? 0 : values[static_cast<std::size_t>(y) * box.width + x];
+    }
+};
+
+void blendGlyph(Image& image, const Coverage& glyph, Rgb color)
 {
-    for (int y = 0; y < box.height; ++y)
-        for (int x = 0; x < box.width; ++x) {
-            const unsigned char c = coverage[static_cast<std::size_t>(y) * box.width + x];
-            if (c > 0) blend(image, box.x + x, box.y + y, color, static_cast<float>(c) / 255.0f);
-        }
+    for (int y = 0; y < glyph.box.height; ++y)
+        for (int x = 0; x < glyph.box.width; ++x)
+            if (const unsigned char c = glyph.at(x, y); c > 0) blend(image, glyph.box.x + x, glyph.box.y + y, color, static_cast<float>(c) / 255.0f);
+}
+
+/// What is covered within `reach` pixels.
+Coverage widened(const Coverage& glyph, int reach)
+{
+    const PixelBox& box = glyph.box;
+    Coverage wide{{box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach}, {}};
+    wide.values.resize(static_cast<std::size_t>(wide.box.width) * wide.box.height);
+    for (int y = 0; y < wide.box.height; ++y)
+        for (int x = 0; x < wide.box.width; ++x)
+            for (int j = -reach; j <= reach; ++j)
+                for (int i = -reach; i <= reach; ++i)
+                    if (i * i + j * j <= reach * (reach + 1)) {
+                        unsigned char& most = wide.values[static_cast<std::size_t>(y) * wide.box.width + x];
+                        most = std::max(most, glyph.at(x - reach + i, y - reach + j));
+                    }
+    return wide;
+}
+
+/// Calls draw(coverage) for each glyph of a text with the base line at y that begins at x [pixels].
+template <class Draw>
+void drawGlyphs(const stbtt_fontinfo& font, std::string_view text, float x, float y, float size, const Draw& draw)
+{
+    const float scale = stbtt_ScaleForPixelHeight(&font, size);
+    const int baseline = static_cast<int>(std::lround(y));
+    Coverage glyph;
+    walk(font, text, scale, [&](int point, float pen) {
+        const float start = std::floor(x + pen), shift = x + pen - start;
+        int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+        stbtt_GetCodepointBitmapBoxSubpixel(&font, point, scale, scale, shift, 0.0f, &x0, &y0, &x1, &y1);
+        glyph.box = {static_cast<int>(start) + x0, baseline + y0, x1 - x0, y1 - y0};
+        if (glyph.box.width <= 0 || glyph.box.height <= 0) return;
+        glyph.values.assign(static_cast<std::size_t>(glyph.box.width) * glyph.box.height, 0);
+        stbtt_MakeCodepointBitmapSubpixel(&font, glyph.values.data(), glyph.box.width, glyph.box.height, glyph.box.width, scale, scale, shift, 0.0f,
+                                          point);
+        draw(glyph);
+    });
 }
 
 }  // namespace
@@ -101,21 +147,16 @@ float Font::capHeight(float size) const
     return stbtt_ScaleForPixelHeight(&face_->info, size) * static_cast<float>(y1);
 }
 
-PixelBox Font::draw(Image& image, std::string_view text, float x, float y, float size, Rgb color) const
+PixelBox Font::draw(Image& image, std::string_view text, float x, float y, float size, const Ink& ink) const
 {
-    const float scale = stbtt_ScaleForPixelHeight(&face_->info, size);
-    std::vector<unsigned char> coverage;
-    const int baseline = static_cast<int>(std::lround(y));
+    if (ink.halo) {
+        const int reach = std::max(1, static_cast<int>(std::lround(0.08f * size)));
+        drawGlyphs(face_->info, text, x, y, size, [&](const Coverage& glyph) { blendGlyph(image, widened(glyph, reach), *ink.halo); });
+    }
     int left = image.width, right = 0, top = image.height, bottom = 0;
-    walk(face_->info, text, scale, [&](int point, float pen) {
-        const float start = std::floor(x + pen), shift = x + pen - start;
-        int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-        stbtt_GetCodepointBitmapBoxSubpixel(&face_->info, point, scale, scale, shift, 0.0f, &x0, &y0, &x1, &y1);
-        const PixelBox box = {static_cast<int>(start) + x0, baseline + y0, x1 - x0, y1 - y0};
-        if (box.width <= 0 || box.height <= 0) return;
-        coverage.assign(static_cast<std::size_t>(box.width) * box.height, 0);
-        stbtt_MakeCodepointBitmapSubpixel(&face_->info, coverage.data(), box.width, box.height, box.width, scale, scale, shift, 0.0f, point);
-        blendGlyph(image, coverage, box, color);
+    drawGlyphs(face_->info, text, x, y, size, [&](const Coverage& glyph) {
+        blendGlyph(image, glyph, ink.color);
+        const PixelBox& box = glyph.box;
         left = std::min(left, box.x), right = std::max(right, box.x + box.width);
         top = std::min(top, box.y), bottom = std::max(bottom, box.y + box.height);
     });

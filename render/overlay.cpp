@@ -67,7 +67,7 @@ std::vector<double> niceTicks(double from, double to)
     return ticks;
 }
 
-PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, Rgb ink)
+PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, const Ink& ink)
 {
     const float size = textSize(image.width, image.height);
     const float free = static_cast<float>(image.width) - font.width(text, size);
@@ -76,7 +76,7 @@ PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner
     return font.draw(image, text, x, margin + font.capHeight(size), size, ink);
 }
 
-PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink, int inset)
+PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, const Ink& ink, int inset)
 {
     const ColorTable table = colorTable(bar.map);
     const float size = barTextSize(image), cap = font.capHeight(size);
@@ -88,10 +88,10 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
     const int right = image.width - inset - rounded(0.8f * size);
     const PixelBox box = {right - rounded(textWidth + 0.6f * size) - width, (image.height - height) / 2, width, height};
     for (int i = 0; i < height; ++i) fill(image, {box.x, box.y + height - 1 - i, width, 1}, barColor(table, i, height));
-    frame(image, box, ink);
+    frame(image, box, ink.color);
     for (const double tick : ticks) {
         const int y = box.y + height - rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(height));
-        fill(image, {box.x + width + 1, std::min(y, box.y + height), std::max(2, rounded(0.2f * size)), 1}, ink);
+        fill(image, {box.x + width + 1, std::min(y, box.y + height), std::max(2, rounded(0.2f * size)), 1}, ink.color);
         font.draw(image, tickText(tick), static_cast<float>(box.x + width) + 0.5f * size, static_cast<float>(y) + 0.5f * cap, size, ink);
     }
     const float titleX = static_cast<float>(right) - font.width(bar.title, size);
@@ -99,7 +99,7 @@ PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb i
     return box;
 }
 
-void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink)
+void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, const Ink& ink)
 {
     int inset = 0;
     for (const ColorBar& bar : bars) {
@@ -117,7 +117,7 @@ void drawAnnotations(Image& image, const Font& font, const Annotations& annotati
     drawColorBars(image, font, annotations.bars, annotations.ink);
 }
 
-PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size, Rgb ink)
+PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& place, float size, const Ink& ink)
 {
     const ColorTable table = colorTable(bar.map);
     const float cap = font.capHeight(size), titleWidth = font.width(bar.title, size);
@@ -129,10 +129,10 @@ PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, 
     const PixelBox box = {left + rounded(titleWidth + gap), top, width, height};
 
     for (int i = 0; i < width; ++i) fill(image, {box.x + i, box.y, 1, height}, barColor(table, i, width));
-    frame(image, box, ink);
+    frame(image, box, ink.color);
     for (const double tick : niceTicks(bar.range[0], bar.range[1])) {
         const int x = box.x + rounded(static_cast<float>(fractionOf(tick, bar.range)) * static_cast<float>(width));
-        fill(image, {std::min(x, box.x + width), box.y + height + 1, 1, std::max(2, rounded(0.2f * size))}, ink);
+        fill(image, {std::min(x, box.x + width), box.y + height + 1, 1, std::max(2, rounded(0.2f * size))}, ink.color);
         const std::string text = tickText(tick);
         font.draw(image, text, static_cast<float>(x) - 0.5f * font.width(text, size), static_cast<float>(box.y + height) + 0.35f * size + cap, size,
                   ink);

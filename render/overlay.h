@@ -37,20 +37,20 @@ std::string timeText(double seconds);
 std::vector<double> niceTicks(double from, double to);
 
 /// Text in a corner. Returns the box of pixels that may have changed; empty text changes none.
-PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, Rgb ink);
+PixelBox drawLabel(Image& image, const Font& font, std::string_view text, Corner corner, const Ink& ink);
 
 /// Upright bar at the right edge, or `inset` pixels from it, with title and ticks. Returns the box of the colours
 /// alone.
-PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, Rgb ink, int inset = 0);
+PixelBox drawColorBar(Image& image, const Font& font, const ColorBar& bar, const Ink& ink, int inset = 0);
 
 /// Several upright bars from the right edge on.
-void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, Rgb ink);
+void drawColorBars(Image& image, const Font& font, std::span<const ColorBar> bars, const Ink& ink);
 
 /// All that is written over one picture.
 struct Annotations {
     std::string label, time;  ///< texts at the top left and right; empty: none
     std::vector<ColorBar> bars;
-    Rgb ink;
+    Ink ink;
 
     bool operator==(const Annotations&) const = default;
     bool empty() const { return label.empty() && time.empty() && bars.empty(); }
@@ -60,6 +60,6 @@ void drawAnnotations(Image& image, const Font& font, const Annotations& annotati
 
 /// Lying bar in the middle of `box`, title to its left, ticks below; letters of `size` pixels. Returns the box of the
 /// colours alone.
-PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& box, float size, Rgb ink);
+PixelBox drawLyingColorBar(Image& image, const Font& font, const ColorBar& bar, const PixelBox& box, float size, const Ink& ink);
 
 }  // namespace render

@@ -124,7 +124,8 @@ Annotations annotationsOf(const FrameView& view, const Look& look)
 {
     const OverlayLook& overlay = look.overlay;
     Annotations annotations;
-    annotations.ink = contrastingColor(toRgb(look.background));
+    const Rgb paper = toRgb(look.background);
+    annotations.ink = {contrastingColor(paper), paper};
     annotations.label = overlay.label;
     if (overlay.timeStamp) annotations.time = timeText(view.time);
     if (!overlay.colorBar) return annotations;

@@ -15,7 +15,7 @@ TEST(Overlay, LabelChangesPixelsOnlyInItsBox)
     const Font font;
     for (const Corner corner : {Corner::TopLeft, Corner::TopCenter, Corner::TopRight}) {
         Image image(320, 180, kPaper);
-        const PixelBox box = drawLabel(image, font, "PolyPIC λ = 0.5 Ågp", corner, {0, 0, 0});
+        const PixelBox box = drawLabel(image, font, "PolyPIC λ = 0.5 Ågp", corner, Rgb{0, 0, 0});
         int inked = 0;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
@@ -29,10 +29,33 @@ TEST(Overlay, LabelChangesPixelsOnlyInItsBox)
     }
 }
 
+/// The rim has the colour of the paper: nothing of it is seen there, and letters stand out from whatever else is behind them.
+TEST(Overlay, LettersAreLegibleOnWhatHasTheirColour)
+{
+    const Font font;
+    const Rgb letters = contrastingColor(kPaper);
+    Image plain(640, 480, kPaper), rimmed = plain, dark(640, 480, letters);
+    drawLabel(plain, font, "t = 0.124 s", Corner::TopLeft, letters);
+    drawLabel(rimmed, font, "t = 0.124 s", Corner::TopLeft, Ink{letters, kPaper});
+    EXPECT_TRUE(rimmed == plain);
+    drawLabel(dark, font, "t = 0.124 s", Corner::TopLeft, Ink{letters, kPaper});
+    int written = 0, legible = 0;
+    for (int y = 1; y + 1 < plain.height; ++y)
+        for (int x = 1; x + 1 < plain.width; ++x) {
+            if (plain.color(x, y).g > 100) continue;
+            bool isBeside = false;
+            for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) isBeside = isBeside || dark.color(x + i, y + j).g > 120;
+            ++written;
+            legible += isBeside;
+        }
+    EXPECT_GT(written, 30);
+    EXPECT_GT(legible, 9 * written / 10) << "of " << written;
+}
+
 TEST(Overlay, EmptyTextChangesNothing)
 {
     Image image(100, 100, kPaper);
-    drawLabel(image, Font(), "", Corner::TopLeft, {0, 0, 0});
+    drawLabel(image, Font(), "", Corner::TopLeft, Rgb{0, 0, 0});
     EXPECT_TRUE(image == Image(100, 100, kPaper));
 }
 
