@@ -91,14 +91,18 @@ void Openings::press(const CutGrid& cut, const Push& push, const PressureFaces& 
         const auto [block, cell] = plane.face;
         plane.pushed = 0.0;
         if (!(gravity > 0.0) || !isPassed(cut, liquid, plane.face, a)) continue;
-        const double impulse =
-            -side.opening.outward() * perPressure * ofCell * std::max(0.0, depthOfPressure((level - plane.height) / dx_) - plane.missing);
+        const double out = side.opening.outward(), depth = std::max(0.0, depthOfPressure((level - plane.height) / dx_) - plane.missing);
+        const double impulse = -out * perPressure * ofCell * depth;
         const double coefficient = faces.coefficient().block(block, a)[cell], room = cut.field.room(block, a)[cell];
-        // Beyond the surface it holds against PressureBeyond, in the system against the pressure.
-        const double perMass = coefficient > 0.0 ? coefficient / (faces.ofFull() * liquid.fullMass * cut.field.open(block, a)[cell])
-                                                 : room / std::max(massOf(liquid, plane.face, a), kLeastFill * liquid.fullMass * room);
-        plane.pushed = impulse * perMass;
-        liquid.faces.velocity.block(block, a)[cell] += plane.pushed;
+        double& u = liquid.faces.velocity.block(block, a)[cell];
+        if (coefficient > 0.0) plane.pushed = impulse * coefficient / (faces.ofFull() * liquid.fullMass * cut.field.open(block, a)[cell]);
+        else {
+            // Beyond the surface it holds against PressureBeyond, and gives what has no pressure no more than its head.
+            const double wanted = impulse * room / std::max(massOf(liquid, plane.face, a), kLeastFill * liquid.fullMass * room);
+            const double fastest = std::max(-out * u, std::sqrt(2.0 * gravity * depth * dx_));
+            plane.pushed = -out * std::min(-out * wanted, fastest + out * u);
+        }
+        u += plane.pushed;
     }
 }
 

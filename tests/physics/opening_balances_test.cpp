@@ -67,15 +67,18 @@ domain: {box: {min: [-0.7089, 0, -0.7089], max: [0.7089, 8.155, 0.7089]}}
         Simulation simulation(readScene(file));
         simulation.bookEnergy();
         const double start = simulation.energies().total();
-        double paid = 0.0, kinetic = 0.0, gained = 0.0;
+        double paid = 0.0, surface = 0.0, pressure = 0.0, kinetic = 0.0, gained = 0.0;  // the energy of the surface is in no sum
         while (simulation.state().time < 0.06) {
             const StepReport report = simulation.step(0.06);
-            paid += (*report.energyChanges)[EnergyChange::Sources];
+            const EnergyChanges& changes = *report.energyChanges;
+            paid += changes[EnergyChange::Sources];
+            surface += changes[EnergyChange::SurfaceTension];
+            pressure += changes[EnergyChange::Pressure];
             kinetic = std::max(kinetic, report.energies.kinetic);
-            gained = std::max(gained, report.energies.total() - start - paid);
+            gained = std::max(gained, report.energies.total() - start - paid - std::max(0.0, surface + std::max(0.0, pressure)));
         }
         EXPECT_GT(simulation.state().ledger.emittedMass, 0.0);
-        EXPECT_LT(gained, 0.05 * kinetic) << method;
+        EXPECT_LT(gained, 0.01 * kinetic) << method;
     }
 }
 
@@ -93,6 +96,38 @@ TEST(Openings, LiquidThatFliesByAnOutletGainsNothing)
             scene.sources[0].shape = flume.box({flume.length - 7.0, 12.0, 0.0}, {flume.length - 3.0, 15.0, 3.0});
             scene.sources[0].emissions[0].velocity = 2.0 * flume.velocity() + Vec3(0.0, up, 0.0);
             EXPECT_LT(gainBeyondOpenings(scene, 40), 1.0e-3) << flume.text() << ", " << up << " cm/s up";
+        }
+}
+
+/// What stands beyond an outlet gives no more than its head, however little liquid comes there: a few drops that fall past its plane, below its level,
+/// get no faster than by their fall and √(2 g level).
+TEST(Openings, SprayInTheirPlaneIsNotThrown)
+{
+    for (Flume flume : flumes())
+        for (const double size : {0.3, 0.5}) {
+            flume.integrator = TimeIntegrator::Plain;
+            flume.hasInlet = false;
+            flume.roof = 30.0;
+            flume.level = 6.0;
+            Scene scene = flume.scene();
+            scene.obstacles.clear();
+            SourceSettings& spray = scene.sources[0];
+            for (int n = 0; n < 3; ++n) {
+                const double along = flume.length - 4.0 - n, height = 9.0 + 1.5 * n;
+                spray.shape = n == 0 ? Shape::ball(flume.at(along, height, 1.0), size * flume.cell)
+                                     : Shape::unite({spray.shape, Shape::ball(flume.at(along, height, 1.0), size * flume.cell)});
+            }
+            spray.emissions[0].velocity = flume.velocity();
+            spray.fill.spacing = 0.3;
+            const double head = flume.cell * (13.0 + 4.0 + flume.level), fall = scene.settings.gravity.norm() * head;
+            Simulation simulation(scene);
+            double fastest = 0.0;
+            for (int n = 0; n < 50; ++n) {
+                simulation.step(1.0);
+                const LiquidParticles& liquid = simulation.state().liquid;
+                for (std::size_t p = 0; p < liquid.count; ++p) fastest = std::max(fastest, liquid.velocity(p).norm());
+            }
+            EXPECT_LT(fastest, std::sqrt(flume.speed * flume.speed + 2.0 * fall)) << flume.text() << ", " << size << " cells";
         }
 }
 
