@@ -78,20 +78,23 @@ void blendGlyph(Image& image, const Coverage& glyph, Rgb color)
             if (const unsigned char c = glyph.at(x, y); c > 0) blend(image, glyph.box.x + x, glyph.box.y + y, color, static_cast<float>(c) / 255.0f);
 }
 
-/// What is covered within `reach` pixels.
+/// The most that is covered of the pixels within `reach` of a pixel.
+unsigned char mostWithin(const Coverage& glyph, int x, int y, int reach)
+{
+    unsigned char most = 0;
+    for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i)
+            if (i * i + j * j <= reach * (reach + 1)) most = std::max(most, glyph.at(x + i, y + j));
+    return most;
+}
+
+/// A glyph with a rim `reach` pixels wide.
 Coverage widened(const Coverage& glyph, int reach)
 {
     const PixelBox& box = glyph.box;
     Coverage wide{{box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach}, {}};
-    wide.values.resize(static_cast<std::size_t>(wide.box.width) * wide.box.height);
     for (int y = 0; y < wide.box.height; ++y)
-        for (int x = 0; x < wide.box.width; ++x)
-            for (int j = -reach; j <= reach; ++j)
-                for (int i = -reach; i <= reach; ++i)
-                    if (i * i + j * j <= reach * (reach + 1)) {
-                        unsigned char& most = wide.values[static_cast<std::size_t>(y) * wide.box.width + x];
-                        most = std::max(most, glyph.at(x - reach + i, y - reach + j));
-                    }
+        for (int x = 0; x < wide.box.width; ++x) wide.values.push_back(mostWithin(glyph, x - reach, y - reach, reach));
     return wide;
 }
 
@@ -149,16 +152,14 @@ float Font::capHeight(float size) const
 
 PixelBox Font::draw(Image& image, std::string_view text, float x, float y, float size, const Ink& ink) const
 {
-    if (ink.halo) {
-        const int reach = std::max(1, static_cast<int>(std::lround(0.08f * size)));
-        drawGlyphs(face_->info, text, x, y, size, [&](const Coverage& glyph) { blendGlyph(image, widened(glyph, reach), *ink.halo); });
-    }
+    const int reach = ink.halo ? std::max(1, static_cast<int>(std::lround(0.08f * size))) : 0;
+    if (ink.halo) drawGlyphs(face_->info, text, x, y, size, [&](const Coverage& glyph) { blendGlyph(image, widened(glyph, reach), *ink.halo); });
     int left = image.width, right = 0, top = image.height, bottom = 0;
     drawGlyphs(face_->info, text, x, y, size, [&](const Coverage& glyph) {
         blendGlyph(image, glyph, ink.color);
         const PixelBox& box = glyph.box;
-        left = std::min(left, box.x), right = std::max(right, box.x + box.width);
-        top = std::min(top, box.y), bottom = std::max(bottom, box.y + box.height);
+        left = std::min(left, box.x - reach), right = std::max(right, box.x + box.width + reach);
+        top = std::min(top, box.y - reach), bottom = std::max(bottom, box.y + box.height + reach);
     });
     return right > left ? PixelBox{left, top, right - left, bottom - top} : PixelBox{};
 }

@@ -104,7 +104,7 @@ TEST(Openings, LiquidThatFliesByAnOutletGainsNothing)
 TEST(Openings, SprayInTheirPlaneIsNotThrown)
 {
     for (Flume flume : flumes())
-        for (const double size : {0.3, 0.5}) {
+        for (const double size : {0.3, 0.5, 0.8}) {
             flume.integrator = TimeIntegrator::Plain;
             flume.hasInlet = false;
             flume.roof = 30.0;
@@ -127,7 +127,9 @@ TEST(Openings, SprayInTheirPlaneIsNotThrown)
                 const LiquidParticles& liquid = simulation.state().liquid;
                 for (std::size_t p = 0; p < liquid.count; ++p) fastest = std::max(fastest, liquid.velocity(p).norm());
             }
-            EXPECT_LT(fastest, std::sqrt(flume.speed * flume.speed + 2.0 * fall)) << flume.text() << ", " << size << " cells";
+            // Drops that have a pressure of their own are pushed for as long as they are in the plane: up to 7 % more.
+            EXPECT_LT(fastest, (size < 0.8 ? 1.0 : 1.1) * std::sqrt(flume.speed * flume.speed + 2.0 * fall))
+                << flume.text() << ", " << size << " cells";
         }
 }
 

@@ -38,7 +38,9 @@ TEST(Overlay, LettersAreLegibleOnWhatHasTheirColour)
     drawLabel(plain, font, "t = 0.124 s", Corner::TopLeft, letters);
     drawLabel(rimmed, font, "t = 0.124 s", Corner::TopLeft, Ink{letters, kPaper});
     EXPECT_TRUE(rimmed == plain);
-    drawLabel(dark, font, "t = 0.124 s", Corner::TopLeft, Ink{letters, kPaper});
+    const PixelBox box = drawLabel(dark, font, "t = 0.124 s", Corner::TopLeft, Ink{letters, kPaper});
+    for (int y = 0; y < dark.height; ++y)
+        for (int x = 0; x < dark.width; ++x) ASSERT_TRUE(dark.color(x, y) == letters || box.contains(x, y)) << x << ", " << y;
     int written = 0, legible = 0;
     for (int y = 1; y + 1 < plain.height; ++y)
         for (int x = 1; x + 1 < plain.width; ++x) {

@@ -22,13 +22,17 @@ try {
 
 void readProfile(const Check& check, double time, std::vector<Sample>& readings)
 {
-    constexpr double kRounding = 1.0e-6;  // of a time that is a sum of steps
-    if (std::abs(time - *check.profileAt) > kRounding * *check.profileAt) return;
     for (const Known& known : check.table)
         readings.push_back({known.at, valueOf(check, std::array{time, known.at}), known.value, known.lower, known.upper});
 }
 
 }  // namespace
+
+bool Check::isProfileTime(double time) const
+{
+    constexpr double kRounding = 1.0e-6;  // of a time that is a sum of steps, relative to it
+    return std::abs(time - *profileAt) <= kRounding * std::abs(*profileAt);
+}
 
 Known Check::knownAt(double time, double at) const
 {
@@ -44,7 +48,10 @@ Known Check::knownAt(double time, double at) const
 
 void readNow(const Check& check, double time, std::vector<Sample>& readings)
 {
-    if (check.profileAt) return readProfile(check, time, readings);
+    if (check.profileAt) {
+        if (check.isProfileTime(time)) readProfile(check, time, readings);
+        return;
+    }
     const std::array now = {time};
     const double at = check.against(now);
     if (at < check.from || at > check.to) return;

@@ -46,6 +46,8 @@ struct Check {
     }
     /// Tells whether the table has a band around what was measured.
     bool hasBand() const { return !table.empty() && std::isfinite(table.front().lower); }
+    /// Is it the time of its profile?
+    bool isProfileTime(double time) const;
     /// NaN beyond the table, and where nothing is expected.
     Known knownAt(double time, double at) const;
 };

@@ -64,18 +64,18 @@ Energy energyOf(const std::filesystem::path& csv)
     double lastObstacles = 0.0, lastOwn = 0.0, byObstacles = 0.0, largest = 0.0;
     while (std::getline(in, line)) {
         const std::vector<std::string> cells = csvCells(line);
-        double paid = 0.0, total = 0.0, surface = 0.0, pressure = 0.0, obstacles = 0.0;
+        double paid = 0.0, total = 0.0, summed = 0.0, surface = 0.0, pressure = 0.0, obstacles = 0.0;
         for (std::size_t i = 0; i < std::min(cells.size(), names.size()); ++i) {
             const double value = std::strtod(cells[i].c_str(), nullptr);
             if (names[i] == "total_erg") total = value;
             if (names[i] == "kinetic_erg") energy.largestKinetic = std::max(energy.largestKinetic, value);
-            if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value;
+            if (std::ranges::find(kFromOutside, names[i]) != kFromOutside.end()) paid += value, summed += std::abs(value);
             if (names[i] == kObstacles) obstacles = value;
             if (names[i] == kSurface) surface = value;
             if (names[i] == kPressure) pressure = value;
-            if (names[i] != "time_s") largest = std::max(largest, std::abs(value));
         }
         if (surface != 0.0) paid += std::max(0.0, surface + std::max(0.0, pressure));
+        largest = std::max(largest, summed + std::abs(total) + std::abs(obstacles) + std::abs(surface) + std::abs(pressure));
         const double own = total - paid;  // and what obstacles gave or took
         if (!start) start = own;
         else byObstacles += std::max(obstacles - lastObstacles, std::min(own - lastOwn, 0.0));

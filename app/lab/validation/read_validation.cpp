@@ -28,13 +28,13 @@ void requireVerdict(const Check& check, const Node& node, const std::string& pat
 }
 
 /// Profiles are read at times of readings.
-void requireReading(const Check& check, double start, double every, const Node& node, const std::string& path)
+void requireReading(const Check& check, const sim::TimeSettings& time, double every, const Node& node, const std::string& path)
 {
-    constexpr double kRounding = 1.0e-6;
     if (!check.profileAt) return;
-    const double intervals = (*check.profileAt - start) / every;
-    if (intervals < 0.5 || std::abs(intervals - std::round(intervals)) > kRounding * intervals)
-        sim::fail(node.location, fmt::format("{}.at: nothing is read at {:g} s: needs a multiple of every, {:g} s", path, *check.profileAt, every));
+    const double nearest = time.start + every * std::round((*check.profileAt - time.start) / every);
+    if (*check.profileAt < time.start || *check.profileAt > time.start + time.duration || !check.isProfileTime(nearest))
+        sim::fail(node.location, fmt::format("{}.at: nothing is read at {:g} s: needs a multiple of every, {:g} s, to the end of the run, {:g} s",
+                                             path, *check.profileAt, every, time.start + time.duration));
 }
 
 Check checkIn(const Node& node, std::size_t index, KnownFrom kind, const ReadingContext& context)
@@ -77,8 +77,7 @@ std::optional<Validation> readValidation(const LoadedScene& setup)
     if (!checks.isList() || checks.items.empty()) sim::fail(checks.location, "validate.checks: needs a list of at least one check");
     for (std::size_t i = 0; i < checks.items.size(); ++i) {
         validation.checks.push_back(checkIn(checks.items[i], i, validation.kind, context));
-        requireReading(validation.checks.back(), setup.scene.settings.time.start, validation.every, checks.items[i],
-                       fmt::format("validate.checks.{}", i));
+        requireReading(validation.checks.back(), setup.scene.settings.time, validation.every, checks.items[i], fmt::format("validate.checks.{}", i));
     }
     return validation;
 }

@@ -82,6 +82,8 @@ TEST(StabilityMap, DigitsOfTheLogAreNoGain)
     };
     EXPECT_TRUE(judge("0.0611353788973"));
     EXPECT_FALSE(judge("0.0611373787"));
+    test::writeFile(logs.folder / "energy_ledger.csv", "time_s,total_erg,kinetic_erg,implicit_erg,residual_erg\n0,1,0,0,0\n1e-3,2,8,-1e13,1e13\n");
+    EXPECT_FALSE(logs.judged().isStable) << "digits of what is not summed do not count";
 }
 
 /// What rests is held anew in each step: 2 g under 1e3 cm/s^2 would get 1 erg in a step of 1e-3 s.

@@ -184,6 +184,8 @@ TEST(Validation, MistakesNameTheirLine)
         {"  every: 1\n  checks:\n    - {read: s, at: 1, at_most: 1}\n", "case.yaml:5: validate.checks.0.at: a profile needs a table"},
         {"  every: 1\n  checks:\n    - {read: s, at: 1.5, take: rms_error, table: [[0, 1], [1, 2]], at_most: 1}\n",
          "case.yaml:5: validate.checks.0.at: nothing is read at 1.5 s: needs a multiple of every, 1 s"},
+        {"  every: 1\n  checks:\n    - {read: s, at: 99, take: rms_error, table: [[0, 1], [1, 2]], at_most: 1}\n",
+         "case.yaml:5: validate.checks.0.at: nothing is read at 99 s"},
         {"  every: 1\n  checks:\n    - {read: s, at: 1, from: 0, take: rms_error, table: [[0, 1], [1, 2]], at_most: 1}\n",
          "case.yaml:5: validate.checks.0.at: a profile needs a table"},
         {"  every: 1\n  checks:\n    - {read: speed, take: share_inside, table: [[0, 1], [1, 2]], at_least: 0.8}\n",
