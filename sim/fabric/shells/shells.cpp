@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace sim {
 
 namespace {
+
+constexpr double kSharpest = 5.0 / 6.0 * std::numbers::pi;  ///< fold from which on 2 tan(θ/2) grows as its tangent does [rad]
 
 template <class Batch>
 ShellCorners<Pack> cornersOf(const Batch& batch, std::span<const Vec3> x)
@@ -26,6 +29,25 @@ ShellCorners<Pack> cornersOf(const Batch& batch, std::span<const Vec3> x)
             if (batch.vertex[3 + k][l] < 0) setLane(c[3 + k], l, laneOf(c[(k + 1) % 3], l) + laneOf(c[(k + 2) % 3], l) - laneOf(c[k], l));
     }
     return c;
+}
+
+/// A measure Φ of a hinge's angle with its first and second derivative [-].
+struct HingeAngle {
+    double value, slope, second;
+};
+
+HingeAngle twiceSine(double angle)
+{
+    const double s = std::sin(0.5 * angle), c = std::cos(0.5 * angle);
+    return {2.0 * s, c, -0.5 * s};
+}
+
+/// 2 tan(θ/2), which has no bound where cloth folds flat, up to kSharpest, and from there on its tangent.
+HingeAngle twiceTangent(double angle)
+{
+    const double bent = std::clamp(angle, -kSharpest, kSharpest), t = std::tan(0.5 * bent), slope = 1.0 + t * t;
+    if (bent == angle) return {2.0 * t, slope, t * slope};
+    return {2.0 * t + slope * (angle - bent), slope, 0.0};
 }
 
 }  // namespace
@@ -46,15 +68,13 @@ Shells::BendMeasure Shells::measured(const Batch& batch, const ShellBend<Pack>& 
             m.slope[k] = m.curvature[k] = broadcast(1.0);
             continue;
         }
-        for (int l = 0; l < kLanes; ++l) {  // 2 tan(θ/2) or 2 sin(θ/2)
-            const double half = 0.5 * angle[l], c = std::cos(half), s = std::sin(half), t = s / c;
-            const bool isTan = settings_.hingeMeasure == HingeMeasure::Tan;
-            const double restMeasure = isTan ? 2.0 * std::tan(0.5 * rest[l]) : 2.0 * std::sin(0.5 * rest[l]);
-            const double change = (isTan ? 2.0 * t : 2.0 * s) - restMeasure;
-            const double slope = isTan ? 1.0 + t * t : c, second = isTan ? t * (1.0 + t * t) : -0.5 * s;
+        const auto at = settings_.hingeMeasure == HingeMeasure::Tan ? twiceTangent : twiceSine;
+        for (int l = 0; l < kLanes; ++l) {
+            const HingeAngle h = at(angle[l]);
+            const double change = h.value - at(rest[l]).value;
             m.change[k][l] = change;
-            m.slope[k][l] = slope;
-            m.curvature[k][l] = std::max(0.0, slope * slope + change * second);
+            m.slope[k][l] = h.slope;
+            m.curvature[k][l] = std::max(0.0, h.slope * h.slope + change * h.second);
         }
     }
     return m;

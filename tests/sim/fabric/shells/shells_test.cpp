@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <numeric>
+
 namespace sim {
 namespace {
 
@@ -94,6 +96,52 @@ TEST(Shells, GradientMatchesFiniteDifferences)
             }
             EXPECT_LT(error, 1.0e-7 * largest) << model.name << ", seed " << seed;
         }
+}
+
+/// A sheet folded about its middle, whose threads lie there.
+std::vector<Vec3> folded(const Fabric& fabric, double angle)
+{
+    std::vector<Vec3> x = fabric.rest;
+    const Vec3 middle = std::accumulate(x.begin(), x.end(), Vec3(0.0, 0.0, 0.0)) / static_cast<double>(x.size());
+    const Eigen::AngleAxisd fold(angle, Vec3::UnitZ()), turn(0.7, Vec3(1.0, -0.3, 0.4).normalized());
+    for (Vec3& p : x) {
+        p -= middle;
+        p = turn * (p.x() > 1.0e-9 ? Vec3(fold * p) : p);
+    }
+    return x;
+}
+
+/// Pressed flat, either way, a fold holds no more than some times what it does when it is all but closed, 150 degrees, and its forces are still the
+/// derivatives of its energy.
+TEST(Shells, FoldsThatArePressedFlatHoldBoundedEnergy)
+{
+    ClothGrid grid{.nodes = {3, 4}, .spacing = {0.5, 0.4}};
+    const Fabric fabric = testing::fabricOf(testing::pieceOf(clothGrid(grid), testing::wool(), {0.05, 0.05}));
+    CrumpledSheet sheet(3, testing::wool(), 0.0, {3, 4});
+    sheet.fabric = fabric;
+    constexpr double kFlat = 3.14159, kStep = 1.0e-6;  // rad, cm
+    for (const Model& model : allModels()) {
+        Shells shells(fabric, model.settings);
+        for (const double way : {-1.0, 1.0}) {
+            const double closed = totalEnergy(shells, folded(fabric, way * 2.618)), flat = totalEnergy(shells, folded(fabric, way * kFlat));
+            EXPECT_GT(closed, 1.0) << model.name;
+            EXPECT_LT(flat, 5.0 * closed) << model.name << ", " << way;
+            for (const double angle : {2.4, 2.6, 2.63, 2.9, 3.1}) {
+                const std::vector<Vec3> x = folded(fabric, way * angle);
+                const std::vector<double> gradient = sheet.gradient(shells, x);
+                double largest = 0.0, error = 0.0;
+                for (std::size_t i = 0; i < gradient.size(); ++i) {
+                    std::vector<Vec3> up = x, down = x;
+                    up[i / 3][i % 3] += kStep;
+                    down[i / 3][i % 3] -= kStep;
+                    const double differences = (totalEnergy(shells, up) - totalEnergy(shells, down)) / (2.0 * kStep);
+                    error = std::max(error, std::abs(differences - gradient[i]));
+                    largest = std::max(largest, std::abs(gradient[i]));
+                }
+                EXPECT_LT(error, 1.0e-6 * largest) << model.name << ", " << way * angle;
+            }
+        }
+    }
 }
 
 Eigen::MatrixXd denseOf(const BlockMatrix& matrix)
