@@ -100,7 +100,8 @@ double fastestPrescribed(const sim::Motion& motion, const Points& points, double
     return farthest * kParts / duration;
 }
 
-/// Largest speed of the corners of boxes around solids that move, of the vertices of fabric that pins lead and of what openings let in [cm/s].
+/// Largest speed of the corners of boxes around solids that move, of the vertices of fabric that pins lead and of what sources give and openings let
+/// in [cm/s].
 double fastestPrescribed(const sim::Scene& scene, double duration)
 {
     double fastest = 0.0;
@@ -116,6 +117,8 @@ double fastestPrescribed(const sim::Scene& scene, double duration)
             for (int v : pins.vertices) led.push_back(piece.points[v]);
             fastest = std::max(fastest, fastestPrescribed(pins.motion, led, duration));
         }
+    for (const sim::SourceSettings& source : scene.sources)
+        for (const sim::Emission& emission : source.emissions) fastest = std::max(fastest, emission.velocity.norm());
     const double gravity = scene.settings.gravity.norm();
     for (const sim::OpeningSettings& opening : scene.openings) {
         // From its level liquid may fall through all of the domain.

@@ -14,7 +14,7 @@ struct RunCourse {
     double energyGain = 0.0;
     double largestSpeed = 0.0;     ///< largest speed of a particle of the liquid [cm/s]
     double commonSpeed = 0.0;      ///< speed of all liquid, had it the largest kinetic energy [cm/s]; 0 without liquid
-    double prescribedSpeed = 0.0;  ///< speed of the fastest of solids and pins at any time of the run [cm/s]
+    double prescribedSpeed = 0.0;  ///< speed of the fastest of solids, pins, sources and openings at any time of the run [cm/s]
     double suctionSpeed = 0.0;     ///< speed to which suction of dry fabric could take liquid [cm/s]
 };
 
@@ -22,7 +22,7 @@ struct RunCourse {
 /// and pins by more than this share of its largest kinetic energy (what obstacles took counts as far as the energy fell with it).
 inline constexpr double kAllowedGain = 0.01;
 /// A run is sound if no particle is faster than so many times the speed of all liquid, had it all that kinetic energy, nor than so many times the
-/// fastest solid, nor than suction could make it.
+/// fastest solid or source, nor than suction could make it.
 inline constexpr double kAllowedSpeed = 10.0;
 
 /// Course of a run by steps.jsonl, energy_ledger.csv and resolved.yaml in its folder.

@@ -127,6 +127,23 @@ TEST(StabilityMap, NoParticleMayBeMuchFasterThanTheEnergyAllows)
     EXPECT_EQ(logs.word(), "speed");
 }
 
+/// A jet into a pool that hardly moves: most of the liquid has no part in its speed.
+TEST(StabilityMap, WhatSourcesGiveMayBeAsFastAsTheyGiveIt)
+{
+    Logs logs;
+    logs.energy(1.0, 0.0);
+    for (const double speed : {3.0, 50.0}) {
+        logs.steps(1.0e-3, 1.01 * kAllowedSpeed * 4.0);
+        test::writeFile(
+            logs.folder / "resolved.yaml",
+            fmt::format(
+                "drench: 1\nscene: {{name: jet}}\ntime: {{dt: 1.0e-3, duration: 0.1}}\ngrid: {{cell: 0.5}}\nliquid:\n  sources:\n    - {{name: "
+                "jet, shape: {{box: {{min: [0, 0, 0], max: [1, 1, 1]}}}}, emit: [{{to: 0.1, velocity: [0, {}, 0]}}]}}\n",
+                speed));
+        EXPECT_EQ(logs.word(), speed > 4.0 ? "" : "speed") << logs.judged().why;
+    }
+}
+
 TEST(StabilityMap, StepsMustBeAsLongAsTheyWereToBe)
 {
     Logs logs;
