@@ -213,6 +213,11 @@ inline void streamFence()
 #endif
 }
 
+/// The lanes of a, then those of b; and the two from both again.
+[[gnu::always_inline]] inline Pack joinHalves(HalfPack a, HalfPack b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
+[[gnu::always_inline]] inline HalfPack lowerHalf(Pack v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+[[gnu::always_inline]] inline HalfPack upperHalf(Pack v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+
 /// v[i][j] becomes v[j][i].
 [[gnu::always_inline]] inline void transposeLanes(Pack (&v)[kLanes])
 {

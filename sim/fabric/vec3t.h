@@ -33,6 +33,10 @@ inline Pack squareRoot(Pack v) { return sqrtPack(v); }
 inline double largerOf(double a, double b) { return b > a ? b : a; }
 inline Pack largerOf(Pack a, Pack b) { return maxPack(a, b); }
 
+/// 1, or −1 where v is negative.
+inline double signOf(double v) { return v < 0.0 ? -1.0 : 1.0; }
+inline Pack signOf(Pack v) { return select(v < 0.0, broadcast(-1.0), broadcast(1.0)); }
+
 template <class T>
 T constant(double v)
 {

@@ -21,6 +21,13 @@ struct CandidatePool {
     std::size_t size() const { return a.size(); }
     ContactDistances range(std::size_t i) const { return {reach[i], core[i]}; }
 
+    /// Asks for a pair that will be described.
+    void prefetch(std::size_t i) const
+    {
+        __builtin_prefetch(&vertices[i]);
+        for (const AlignedArray<double>* quantity : {&reach, &core, &distance, &p, &q}) __builtin_prefetch(&(*quantity)[i]);
+    }
+
     /// Drops the pairs of dirty primitives and takes in those of its kind that a search found.
     void replace(const Primitives& primitives, std::span<const char> dirty, const PairSearch& search);
     void clear();

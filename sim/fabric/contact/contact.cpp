@@ -79,7 +79,11 @@ void FabricContact::Parts::findActive(const CandidatePool& pairs, std::vector<Pa
 void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec3> expected, const CandidatePool& pairs,
                                     std::span<const PairPlace> places, std::size_t first)
 {
-    parallelFor(places.size(), 512, [&](std::size_t i) { describe(x, expected, pairs, places[i].place, first + i); });
+    constexpr std::size_t kAhead = 8;  // pairs lie in their pool in no order
+    parallelFor(places.size(), 512, [&](std::size_t i) {
+        if (i + kAhead < places.size()) pairs.prefetch(places[i + kAhead].place);
+        describe(x, expected, pairs, places[i].place, first + i);
+    });
 }
 
 void FabricContact::Parts::resizeActive(std::size_t n)

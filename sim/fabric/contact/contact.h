@@ -3,6 +3,7 @@
 #include "sim/fabric/cohesion.h"
 #include "sim/fabric/contact/covered_moves.h"
 #include "sim/fabric/fabric.h"
+#include "sim/fabric/vec3t.h"
 #include "sim/settings.h"
 #include "sim/stage.h"
 
@@ -21,6 +22,19 @@ constexpr std::array<std::array<int, 2>, 2> directionsOfPair(int firstSide)
     return firstSide == 2 ? std::array{std::array{0, 1}, std::array{2, 3}} : std::array{std::array{1, 2}, std::array{1, 3}};
 }
 
+/// Two unit vectors across a unit vector and each other (Duff et al. 2017, "Building an orthonormal basis, revisited").
+template <class T>
+std::array<Vec3T<T>, 2> tangentsOf(const Vec3T<T>& n)
+{
+    const T one = constant<T>(1.0), sign = signOf(n.z), a = -one / (sign + n.z), b = n.x * n.y * a;
+    return {Vec3T<T>{one + sign * n.x * n.x * a, sign * b, -(sign * n.x)}, Vec3T<T>{b, sign + n.y * n.y * a, -n.y}};
+}
+inline std::array<Vec3, 2> tangentsOf(const Vec3& n)
+{
+    const std::array<Vec3T<double>, 2> t = tangentsOf(toVec3T(n));
+    return {toVec3(t[0]), toVec3(t[1])};
+}
+
 /// Pairs of fabric primitives (edge-edge, vertex-face) close enough to push on each other; sorted, one array per quantity.
 /// With c the weights and x the positions of its four vertices, a pair's separation is Σ c x. Its first side are the first two
 /// vertices, or the first alone where a vertex meets a face.
@@ -29,38 +43,44 @@ constexpr std::array<std::array<int, 2>, 2> directionsOfPair(int firstSide)
 /// (PairTurn). How fast the two slide is Σ c v − Σ Λ (v_end − v_begin), over the two directions by which that turn is told; friction acts by the
 /// transpose of it, so that it has no moment about the pair, and does the work that its slip takes.
 struct ActiveContacts {
-    /// Λ of the two directions [-]; 0 without friction.
-    using Lever = std::array<Mat3, 2>;
+    /// What two turning directions do to the separation along the tangents t of its normal: Λ = Σ t λᵀ with λ by directions and tangents [-].
+    using Lever = std::array<std::array<Vec3, 2>, 2>;
 
     std::vector<std::array<int, 4>> vertices;
     std::vector<std::uint8_t> firstSide;         ///< vertices of the first side: 2 or 1
     std::vector<std::array<double, 4>> weights;  ///< weights of both sides, those of the second negative: they sum to zero [-]
     std::vector<Vec3> normal;                    ///< unit, from the second side to the first
-    std::vector<Vec3> force;                     ///< dE/d(separation), with friction: vertex a has the gradient B_aᵀ force (slipJacobian) [dyn]
-    std::vector<double> stiffness;               ///< along the normal, k_n [dyn/cm]
-    std::vector<double> frictionStiffness;  ///< across it, k_t: the block of a, b is B_aᵀ (k_n n nᵀ + k_t (1 − n nᵀ)) B_b (slipJacobian) [dyn/cm]
-    std::vector<Lever> lever;               ///< how the turn of the pair moves its separation
+    std::vector<Vec3> force;                ///< dE/d(separation), with friction: its transpose of slip() is the gradient (forcesOnVertices) [dyn]
+    std::vector<double> stiffness;          ///< along the normal, k_n [dyn/cm]
+    std::vector<double> frictionStiffness;  ///< across it, k_t: with B of slip() the matrix is Bᵀ (k_n n nᵀ + k_t (1 − n nᵀ)) B [dyn/cm]
+    std::vector<Lever> lever;               ///< how the turn of the pair moves its separation; of no account without friction
     std::vector<Vec2i> between;             ///< the two, as contact/primitives.h counts them: ascending
 
     std::size_t size() const { return vertices.size(); }
     bool empty() const { return vertices.empty(); }
 
-    /// B of vertex k but for its weight: what a move of it turns the pair by, as its separation sees that.
-    Mat3 turnJacobian(std::size_t i, int k) const
+    /// How the separation of pair i changes with moves of its vertices, but for what it turns as a whole: B u.
+    /// @param move  of vertex v, a Vec3 [cm]
+    template <class Move>
+    Vec3 slip(std::size_t i, Move&& move) const
     {
-        Mat3 sum = Mat3::Zero();
-        const auto ends = directionsOfPair(firstSide[i]);
-        for (int n = 0; n < 2; ++n) {
-            if (ends[n][0] == k) sum += lever[i][n];
-            if (ends[n][1] == k) sum -= lever[i][n];
+        std::array<Vec3, 4> u;
+        Vec3 sum = Vec3::Zero();
+        for (int k = 0; k < 4; ++k) {
+            u[k] = move(vertices[i][k]);
+            sum += weights[i][k] * u[k];
         }
-        return sum;
+        if (!(frictionStiffness[i] > 0.0)) return sum;
+        const auto ends = directionsOfPair(firstSide[i]);
+        return sum - turned(i, {u[ends[0][1]] - u[ends[0][0]], u[ends[1][1]] - u[ends[1][0]]});
     }
-    /// B of vertex k: Σ B u is how the separation of pair i changes with moves u of its vertices, but for what it turns as a whole.
-    Mat3 slipJacobian(std::size_t i, int k) const
+    /// What changes of the pair's directions do to its separation: Σ Λ (change of end less begin).
+    Vec3 turned(std::size_t i, const std::array<Vec3, 2>& change) const
     {
-        const Mat3 own = weights[i][k] * Mat3::Identity();
-        return frictionStiffness[i] > 0.0 ? own + turnJacobian(i, k) : own;
+        const std::array<Vec3, 2> tangent = tangentsOf(normal[i]);
+        Vec3 sum = Vec3::Zero();
+        for (int j = 0; j < 2; ++j) sum += (lever[i][0][j].dot(change[0]) + lever[i][1][j].dot(change[1])) * tangent[j];
+        return sum;
     }
     /// What a force on the separation of pair i is on its vertices: Bᵀ f.
     std::array<Vec3, 4> forcesOnVertices(std::size_t i, const Vec3& onPair) const
@@ -69,8 +89,9 @@ struct ActiveContacts {
         for (int k = 0; k < 4; ++k) on[k] = weights[i][k] * onPair;
         if (!(frictionStiffness[i] > 0.0)) return on;
         const auto ends = directionsOfPair(firstSide[i]);
+        const std::array<Vec3, 2> tangent = tangentsOf(normal[i]);
         for (int n = 0; n < 2; ++n) {
-            const Vec3 couple = lever[i][n].transpose() * onPair;
+            const Vec3 couple = tangent[0].dot(onPair) * lever[i][n][0] + tangent[1].dot(onPair) * lever[i][n][1];
             on[ends[n][0]] += couple;
             on[ends[n][1]] -= couple;
         }

@@ -31,12 +31,18 @@ std::array<Vec3, 2> FabricContact::Parts::directionsAt(std::span<const Vec3> x, 
 /// Mobility of an active pair's separation across its normal, with what turns the pair: mean over the two directions [1/g].
 double FabricContact::Parts::mobility(std::size_t slot) const
 {
+    const std::array<Vec3, 2> tangent = tangentsOf(active.normal[slot]);
+    const auto ends = directionsOfPair(active.firstSide[slot]);
+    std::array<std::array<Vec3, 2>, 4> answer;  // of the separation along both tangents to each vertex
+    for (int k = 0; k < 4; ++k)
+        for (int j = 0; j < 2; ++j) answer[k][j] = active.weights[slot][k] * tangent[j];
+    for (int n = 0; n < 2; ++n)
+        for (int j = 0; j < 2; ++j) {
+            answer[ends[n][0]][j] += active.lever[slot][n][j];
+            answer[ends[n][1]][j] -= active.lever[slot][n][j];
+        }
     double sum = 0.0;
-    for (int k = 0; k < 4; ++k) {
-        const double weight = active.weights[slot][k];
-        const Mat3 turn = active.turnJacobian(slot, k);  // across the normal
-        sum += inverseMass[active.vertices[slot][k]] * (weight * weight + weight * turn.trace() + 0.5 * turn.squaredNorm());
-    }
+    for (int k = 0; k < 4; ++k) sum += 0.5 * inverseMass[active.vertices[slot][k]] * (answer[k][0].squaredNorm() + answer[k][1].squaredNorm());
     return sum;
 }
 
@@ -62,8 +68,7 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const Vec3 carried = turn * before;
     const FrictionSpring spring{along(turn * heldForce[slot]), pairFrictionStiffness(-energy.slope, pressed, pair.perStep),
                                 pair.coefficient * -energy.slope};
-    active.lever[slot] = turn.lever(before);
-    for (Mat3& lever : active.lever[slot]) lever -= normal * (normal.transpose() * lever);  // what presses is not felt as a moment
+    active.lever[slot] = turn.lever(before, tangentsOf(normal));  // what presses is not felt as a moment
     active.frictionStiffness[slot] = spring.stiffness;
     if (expected.empty()) return spring.at(along(apart - carried));
     return spring.expected(along(apart - carried), along(before + further - carried), h * h * mobility(slot) * spring.stiffness);
@@ -78,7 +83,7 @@ FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::sp
     Vec3 slid = moved;
     if (active.frictionStiffness[i] > 0.0) {
         const std::array<Vec3, 2> now = directionsAt(x, i);
-        for (int d = 0; d < 2; ++d) slid -= active.lever[i][d] * (now[d] - frictionPairs[i].directions[d]);
+        slid -= active.turned(i, {now[0] - frictionPairs[i].directions[0], now[1] - frictionPairs[i].directions[1]});
     }
     const Vec3 acted = active.force[i] + active.frictionStiffness[i] * slid;
     const double normalForce = frictionPairs[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);

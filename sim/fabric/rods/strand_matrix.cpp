@@ -35,6 +35,7 @@ void StrandMatrix::resize(const StrandLayout& layout)
     const std::size_t entries = static_cast<std::size_t>(layout.rows) * kBand * kLanes;
     band_.resize(entries);
     lower_.resize(layout.vertex.size() * kLowerPerVertex * kLanes);
+    lower_.fill(0.0);  // also where the first rows have nothing before them
     inverse_.resize(static_cast<std::size_t>(layout.rows) * kLanes);
     definite_.resize(layout.groups.size());
 }
@@ -75,18 +76,37 @@ void StrandMatrix::solve(const StrandLayout::Group& group, const Pack* b, Pack* 
 {
     const Pack* lower = packs(lower_, group.firstVertex * kLowerPerVertex);
     const Pack* inverse = packs(inverse_, group.firstRow);
-    const int n = group.rows();
-    for (int r = 0; r < n; ++r) {
-        const Pack* own = lowerRow(lower, r);
-        Pack v = b[r];
-        for (int k = std::min(r, kReach[r % 4]); k >= 1; --k) v -= own[k - 1] * z[r - k];
-        z[r] = v;
+    // Vertex by vertex, with its four rows and the eight before, beyond which none has entries, in registers; the last has no angle.
+    constexpr int kBefore = 8, kOwn = 4;
+    Pack near[kBefore + kOwn] = {};
+    const auto forward = [&](int j, auto row) __attribute__((always_inline))
+    {
+        const Pack* own = lowerRow(lower, kOwn * j + row);
+        Pack v = b[kOwn * j + row];
+        unroll<kReach[row]>([&](auto i) __attribute__((always_inline)) { v -= own[kReach[row] - 1 - i] * near[kBefore + row - kReach[row] + i]; });
+        near[kBefore + row] = v;
+        z[kOwn * j + row] = v * inverse[kOwn * j + row];
+    };
+    for (int j = 0; j < group.vertices; ++j) {
+        unroll<kOwn - 1>([&](auto row) __attribute__((always_inline)) { forward(j, row); });
+        if (j + 1 < group.vertices) forward(j, std::integral_constant<int, kOwn - 1>{});
+        unroll<kBefore>([&](auto i) __attribute__((always_inline)) { near[i] = near[i + kOwn]; });
     }
-    for (int r = 0; r < n; ++r) z[r] *= inverse[r];
-    for (int r = n - 1; r >= 0; --r) {
-        const Pack* own = lowerRow(lower, r);
-        const Pack v = z[r];
-        for (int k = 1; k <= std::min(r, kReach[r % 4]); ++k) z[r - k] -= own[k - 1] * v;
+    const auto rowAt = [&](int r) { return r >= 0 ? z[r] : Pack{}; };
+    const int last = kOwn * (group.vertices - 1);
+    unroll<kBefore + kOwn - 1>([&](auto i) __attribute__((always_inline)) { near[i] = rowAt(last - kBefore + i); });
+    near[kBefore + kOwn - 1] = Pack{};
+    for (int j = group.vertices - 1; j >= 0; --j) {
+        unroll<kOwn>([&](auto i) __attribute__((always_inline)) {
+            constexpr int kRow = kOwn - 1 - i;
+            if (kRow == kOwn - 1 && j + 1 == group.vertices) return;
+            const Pack* own = lowerRow(lower, kOwn * j + kRow);
+            const Pack v = near[kBefore + kRow];
+            z[kOwn * j + kRow] = v;
+            unroll<kReach[kRow]>([&](auto k) __attribute__((always_inline)) { near[kBefore + kRow - 1 - k] -= own[k] * v; });
+        });
+        unroll<kBefore>([&](auto i) __attribute__((always_inline)) { near[kBefore + kOwn - 1 - i] = near[kBefore - 1 - i]; });
+        unroll<kOwn>([&](auto i) __attribute__((always_inline)) { near[i] = rowAt(kOwn * (j - 1) - kBefore + i); });
     }
 }
 

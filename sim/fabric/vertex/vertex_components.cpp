@@ -53,10 +53,10 @@ void VertexSystem::layOutPieces()
 }
 
 /// What the active pairs tie.
-void VertexSystem::findComponents(const NewtonPoint& at)
+void VertexSystem::findComponents(const NewtonPoint& at, const ActiveContacts* contacts)
 {
     components_.untie();
-    for (const PairBlock& pair : pairs_) components_.tie(pair.vertices[0], pair.vertices[3]);
+    for (std::size_t i = 0; contacts && i < contacts->size(); ++i) components_.tie(contacts->vertices[i][0], contacts->vertices[i][3]);
     components_.number();
     conjugate_.assign(components_.count(), {});
     std::ranges::fill(pieceMass_, 0.0);

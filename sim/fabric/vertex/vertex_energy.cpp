@@ -18,8 +18,7 @@ void VertexSolver::bookContacts(const FabricState& state, EnergyChanges& changes
     for (std::size_t i = 0; contacts_ && i < contacts_->pairs().size(); ++i) {
         const std::array<int, 4>& v = contacts_->pairs().vertices[i];
         const Vec3& normal = contacts_->pairs().normal[i];
-        Vec3 apart = Vec3::Zero();
-        for (int k = 0; k < 4; ++k) apart += contacts_->pairs().slipJacobian(i, k) * move(v[k]);
+        const Vec3 apart = contacts_->pairs().slip(i, move);
         const Vec3 force = forceAtEnd(i);
         const Vec3 push = normal.dot(force) * normal;
         changes[EnergyChange::Contact] -= push.dot(apart);

@@ -17,8 +17,7 @@ Vec3 VertexSolver::solvedMove(int vertex) const { return hasMovedSinceDetection_
 Vec3 VertexSolver::forceAtEnd(std::size_t contact) const
 {
     const Vec3& normal = contacts_->pairs().normal[contact];
-    Vec3 change = Vec3::Zero();
-    for (int k = 0; k < 4; ++k) change += contacts_->pairs().slipJacobian(contact, k) * solvedMove(contacts_->pairs().vertices[contact][k]);
+    const Vec3 change = contacts_->pairs().slip(contact, [&](int v) { return solvedMove(v); });
     const Vec3 along = normal.dot(change) * normal;
     return contacts_->pairs().force[contact] + contacts_->pairs().stiffness[contact] * along +
            contacts_->pairs().frictionStiffness[contact] * (change - along);

@@ -17,117 +17,104 @@ Side sideOf(int firstSide, int which) { return which == 0 ? Side{0, firstSide} :
 
 }  // namespace
 
-/// B of a vertex but for its weight.
-Mat3Columns VertexSystem::PairBlock::turnJacobian(int k) const
+/// Places that pairs have in packs.
+void VertexSystem::layOutPairs(const ActiveContacts* contacts)
 {
-    Mat3Columns sum;
-    const auto ends = directionsOfPair(firstSide);
-    for (int d = 0; d < 2; ++d) {
-        if (ends[d][0] == k) sum += Mat3Columns(lever[d]);
-        if (ends[d][1] == k) sum -= Mat3Columns(lever[d]);
-    }
-    return sum;
+    const std::size_t count = contacts ? contacts->size() : 0;
+    edgePairs_ = 0;
+    while (edgePairs_ < static_cast<int>(count) && contacts->firstSide[edgePairs_] == 2) ++edgePairs_;
+    pairs_.resize(count > 0 ? slotOfPair(count - 1) / kLanes + 1 : 0);
+    pairForce_.resize(16 * count);
 }
 
-VertexSystem::PairBlock::Blocks VertexSystem::PairBlock::blocks(int k, int other) const
+std::size_t VertexSystem::slotOfPair(std::size_t i) const
 {
-    const double weight = weights[k], otherWeight = weights[other];
-    const HalfPack n{normal[0], normal[1], normal[2], 0.0};
-    Blocks blocks;
-    for (int a = 0; a < 3; ++a) {
-        HalfPack pressed = (stiffness * n[a]) * n;
-        pressed[a] += across;
-        blocks.own.column[a] = (weight * weight) * pressed;
-        blocks.withOther.column[a] = (weight * otherWeight) * pressed;
-    }
-    if (!hasLever) return blocks;
-    const Mat3Columns turn = turnJacobian(k), transpose = turn.transposed();
-    for (int a = 0; a < 3; ++a) {
-        const HalfPack both = transpose * turn.column[a];
-        blocks.own.column[a] += across * (weight * (turn.column[a] + transpose.column[a]) + both);
-        blocks.withOther.column[a] += across * (otherWeight * transpose.column[a] - weight * turn.column[a] - both);
-    }
-    return blocks;
+    const std::size_t edges = edgePairs_;
+    return i < edges ? i : i - edges + (edges + kLanes - 1) / kLanes * kLanes;
 }
 
-/// Each vertex's pairs, in the pairs' order.
-void VertexSystem::sortIncidence()
+/// Whether S holds all of a side's own part, else only the diagonals of its vertices on strands.
+bool VertexSystem::isInStrands(const ActiveContacts& contacts, std::size_t i, int which) const
+{
+    const Side side = sideOf(contacts.firstSide[i], which);
+    const int first = contacts.vertices[i][side.begin], last = contacts.vertices[i][side.end - 1], size = side.end - side.begin;
+    const int apart = std::abs(unknowns_.slot[first] - unknowns_.slot[last]);
+    return unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) && (size == 1 || (size == 2 && apart == kNextVertex));
+}
+
+/// Each vertex's pairs, in the pairs' order, and what of them the packs have to know.
+void VertexSystem::sortIncidence(const ActiveContacts* contacts)
 {
     incidenceBegin_.assign(fabric_.vertexCount() + 1, 0);
-    for (const PairBlock& pair : pairs_)
-        for (int v : pair.vertices) ++incidenceBegin_[v + 1];
-    for (std::size_t v = 0; v < fabric_.vertexCount(); ++v) incidenceBegin_[v + 1] += incidenceBegin_[v];
-    incidence_.resize(4 * pairs_.size());
-    cursor_.assign(incidenceBegin_.begin(), incidenceBegin_.end() - 1);
     uncoupled_.clear();
-    for (int n = 0; n < static_cast<int>(pairs_.size()); ++n) {
-        const PairBlock& pair = pairs_[n];
+    if (!contacts) return;
+    for (const std::array<int, 4>& vertices : contacts->vertices)
+        for (int v : vertices) ++incidenceBegin_[v + 1];
+    for (std::size_t v = 0; v < fabric_.vertexCount(); ++v) incidenceBegin_[v + 1] += incidenceBegin_[v];
+    incidence_.resize(4 * contacts->size());
+    cursor_.assign(incidenceBegin_.begin(), incidenceBegin_.end() - 1);
+    for (std::size_t i = 0; i < contacts->size(); ++i) {
+        const std::size_t slot = slotOfPair(i);
+        PairPack& pack = pairs_[slot / kLanes];
+        if (slot % kLanes == 0) {
+            pack = {};
+            for (auto& lanes : pack.incidence) lanes.fill(PairPack::kNone);
+        }
+        const std::array<bool, 2> inStrands = {isInStrands(*contacts, i, 0), isInStrands(*contacts, i, 1)};
+        for (int which = 0; which < 2; ++which) pack.isCoupled[which][slot % kLanes] = inStrands[which] ? 0.0f : 1.0f;
         for (int k = 0; k < 4; ++k) {
-            const int v = pair.vertices[k], side = k < pair.firstSide ? 0 : 1;
-            incidence_[cursor_[v]++] = {n, k};
-            if (!pair.inStrands[side] && unknowns_.isOnStrand(v) && !fabric_.pinned[v]) uncoupled_.push_back({v, n, k});
+            const int v = contacts->vertices[i][k], place = cursor_[v]++;
+            incidence_[place] = {static_cast<int>(i), k};
+            pack.incidence[k][slot % kLanes] = place;
+            if (!inStrands[k < contacts->firstSide[i] ? 0 : 1] && unknowns_.isOnStrand(v) && !fabric_.pinned[v])
+                uncoupled_.push_back({v, RoundedPair(*contacts, i).block(k, k)});
         }
     }
 }
 
-void VertexSystem::copyLever(const ActiveContacts::Lever& lever, PairBlock& pair)
+/// What the solver reads of a pair, and its gradient in pairForce_.
+void VertexSystem::copyPair(const ActiveContacts& c, std::size_t i)
 {
-    for (int d = 0; d < 2; ++d)
-        for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b) pair.lever[d][a][b] = static_cast<float>(lever[d](b, a));
+    const std::size_t slot = slotOfPair(i), l = slot % kLanes;
+    PairPack& pack = pairs_[slot / kLanes];
+    pack.set(l, c, i);
+    const std::array<Vec3, 4> gradient = c.forcesOnVertices(i, c.force[i]);
+    for (int k = 0; k < 4; ++k) Eigen::Map<Vec3>(pairForce_.data() + 4 * static_cast<std::size_t>(pack.incidence[k][l])) = gradient[k];
 }
 
 /// What the solver reads of the pairs, and in pairForce_ their gradients.
 void VertexSystem::copyPairs(const ActiveContacts* contacts)
 {
-    pairs_.resize(contacts ? contacts->size() : 0);
-    pairForce_.resize(16 * pairs_.size());
-    parallelFor(pairs_.size(), 1024, [&](std::size_t n) {
-        const ActiveContacts& c = *contacts;
-        const Vec3& normal = c.normal[n];
-        PairBlock& pair = pairs_[n];
-        pair = {{normal.x(), normal.y(), normal.z(), 0.0},
-                c.weights[n],
-                c.vertices[n],
-                c.stiffness[n] - c.frictionStiffness[n],
-                c.frictionStiffness[n],
-                c.firstSide[n],
-                {},
-                c.frictionStiffness[n] > 0.0,
-                {}};
-        if (pair.hasLever) copyLever(c.lever[n], pair);
-        const std::array<Vec3, 4> gradient = c.forcesOnVertices(n, c.force[n]);
-        for (int k = 0; k < 4; ++k) Eigen::Map<Vec3>(pairForce_.data() + 4 * (4 * n + k)) = gradient[k];
-        for (int which = 0; which < 2; ++which) {
-            const Side side = sideOf(pair.firstSide, which);
-            const int first = pair.vertices[side.begin], last = pair.vertices[side.end - 1];
-            const int apart = std::abs(unknowns_.slot[first] - unknowns_.slot[last]), size = side.end - side.begin;
-            pair.inStrands[which] = unknowns_.isOnStrand(first) && unknowns_.isOnStrand(last) && (size == 1 || (size == 2 && apart == kNextVertex));
-        }
+    layOutPairs(contacts);
+    sortIncidence(contacts);
+    parallelFor(pairs_.size(), 128, [&](std::size_t n) {
+        const std::size_t edges = edgePairs_, firstFace = (edges + kLanes - 1) / kLanes * kLanes, begin = n * kLanes;
+        const std::size_t first = begin < firstFace ? begin : begin - firstFace + edges;
+        const std::size_t end = std::min(first + kLanes, begin < firstFace ? edges : contacts->size());
+        for (std::size_t i = first; i < end; ++i) copyPair(*contacts, i);
     });
 }
 
 /// Gradient, and what S or the preconditioner of the cloth takes of the matrix.
-void VertexSystem::addContacts()
+void VertexSystem::addContacts(const ActiveContacts& contacts)
 {
-    sortIncidence();
     parallelFor(fabric_.vertexCount(), 256, [&](std::size_t v) {
         if (incidenceBegin_[v] == incidenceBegin_[v + 1]) return;
         const int slot = unknowns_.slot[v];
-        Vec3 gradient = Vec3::Zero();
+        HalfPack gradient{};
         Mat3Columns own, before;
         bool hasBefore = false;
-        for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i) {
-            const auto [number, place] = incidence_[i];
-            const PairBlock& pair = pairs_[number];
-            gradient += Eigen::Map<const Vec3>(pairForce_.data() + 4 * (4 * static_cast<std::size_t>(number) + place));
-            const Side side = sideOf(pair.firstSide, place < pair.firstSide ? 0 : 1);
+        for (int n = incidenceBegin_[v]; n < incidenceBegin_[v + 1]; ++n) {
+            const auto [i, place] = incidence_[n];
+            gradient += *reinterpret_cast<const HalfPack*>(pairForce_.data() + 4 * static_cast<std::size_t>(n));
+            const RoundedPair pair(contacts, i);
+            own += pair.block(place, place);
+            const int which = place < contacts.firstSide[i] ? 0 : 1;
+            const Side side = sideOf(contacts.firstSide[i], which);
             const int other = side.begin + side.end - 1 - place;
-            const PairBlock::Blocks blocks = pair.blocks(place, side.end - side.begin == 2 ? other : place);
-            own += blocks.own;
-            if (side.end - side.begin != 2 || !pair.inStrands[side.begin == 0 ? 0 : 1]) continue;
-            if (unknowns_.slot[pair.vertices[other]] != slot - kNextVertex) continue;
-            before += blocks.withOther;
+            if (side.end - side.begin != 2 || unknowns_.slot[contacts.vertices[i][other]] != slot - kNextVertex) continue;
+            if (!isInStrands(contacts, i, which)) continue;
+            before += pair.block(place, other);
             hasBefore = true;
         }
         for (int a = 0; a < 3; ++a) gradient_[slot + a * kLanes] += gradient[a];

@@ -18,18 +18,11 @@ Pack* packs(AlignedArray<double>& v) { return reinterpret_cast<Pack*>(v.data());
 
 /// A vertex' three numbers and a 0.
 HalfPack& quad(AlignedArray<double>& v, std::size_t n) { return *reinterpret_cast<HalfPack*>(v.data() + 4 * n); }
-HalfPack asQuad(const std::array<double, 4>& v) { return HalfPack{v[0], v[1], v[2], v[3]}; }
 
 double dot(const HalfPack& a, const HalfPack& b)
 {
     const HalfPack c = a * b;
     return (c[0] + c[1]) + c[2];
-}
-
-/// H u of a pair.
-HalfPack times(const HalfPack& normal, double stiffness, double across, const HalfPack& u)
-{
-    return across * u + (stiffness * dot(normal, u)) * normal;
 }
 
 }  // namespace
@@ -49,34 +42,49 @@ void VertexSystem::copyByVertex(const double* p, int g)
     }
 }
 
+bool VertexSystem::isAnyActive(const PairPack& pairs)
+{
+    return std::ranges::any_of(pairs.vertices[0], [&](int v) { return componentOf(v).isActive; });
+}
+
 /// C p of every pair, on each of its vertices: Bᵀ H B p, but for what S has of it.
 void VertexSystem::applyPairs()
 {
-    parallelFor(pairs_.size(), 512, [&](std::size_t n) {
-        const PairBlock& pair = pairs_[n];
-        if (!componentOf(pair.vertices[0]).isActive) return;
-        const HalfPack normal = asQuad(pair.normal);
-        HalfPack p[4], side[2] = {};
-        for (int k = 0; k < 4; ++k) {
-            p[k] = quad(pOfVertex_, pair.vertices[k]);
-            side[k < pair.firstSide ? 0 : 1] += pair.weights[k] * p[k];
-        }
-        const auto ends = directionsOfPair(pair.firstSide);
-        if (pair.hasLever)
-            for (int d = 0; d < 2; ++d) side[pair.sideOfDirection(d)] -= Mat3Columns(pair.lever[d]) * (p[ends[d][1]] - p[ends[d][0]]);
-        const HalfPack both = side[0] + side[1];
-        const HalfPack on[2] = {times(normal, pair.stiffness, pair.across, pair.inStrands[0] ? side[1] : both),
-                                times(normal, pair.stiffness, pair.across, pair.inStrands[1] ? side[0] : both)};
-        HalfPack force[4];
-        for (int k = 0; k < 4; ++k) force[k] = pair.weights[k] * on[k < pair.firstSide ? 0 : 1];
-        if (pair.hasLever)
-            for (int d = 0; d < 2; ++d) {
-                const HalfPack turning = Mat3Columns(pair.lever[d]).transposed() * on[pair.sideOfDirection(d)];
-                force[ends[d][0]] += turning;
-                force[ends[d][1]] -= turning;
+    const std::size_t edgePacks = (edgePairs_ + kLanes - 1) / kLanes;
+    parallelFor(pairs_.size(), 64, [&](std::size_t n) {
+        const PairPack& pairs = pairs_[n];
+        if (!isAnyActive(pairs)) return;
+        std::array<PackVec3, 4> p;
+        for (int k = 0; k < 4; k += 2) {  // two vertices of each pair are a row
+            Pack rows[kLanes];
+            for (int l = 0; l < kLanes; ++l) {
+                rows[l] = joinHalves(quad(pOfVertex_, pairs.vertices[k][l]), quad(pOfVertex_, pairs.vertices[k + 1][l]));
             }
-        for (int k = 0; k < 4; ++k) quad(pairForce_, 4 * n + k) = force[k];
+            transposeLanes(rows);
+            p[k] = {rows[0], rows[1], rows[2]};
+            p[k + 1] = {rows[4], rows[5], rows[6]};
+        }
+        const std::array<PackVec3, 4> force = n < edgePacks ? pairs.times<2>(p) : pairs.times<1>(p);
+        for (int k = 0; k < 4; k += 2) {
+            const Pack zero = broadcast(0.0);
+            Pack rows[kLanes] = {force[k].x, force[k].y, force[k].z, zero, force[k + 1].x, force[k + 1].y, force[k + 1].z, zero};
+            transposeLanes(rows);
+            for (int l = 0; l < kLanes; ++l) {
+                if (pairs.incidence[k][l] == PairPack::kNone) break;
+                quad(pairForce_, pairs.incidence[k][l]) = lowerHalf(rows[l]);
+                quad(pairForce_, pairs.incidence[k + 1][l]) = upperHalf(rows[l]);
+            }
+        }
     });
+}
+
+/// C p on a vertex.
+HalfPack VertexSystem::sumOfPairs(int vertex) const
+{
+    HalfPack sum{};
+    for (int i = incidenceBegin_[vertex]; i < incidenceBegin_[vertex + 1]; ++i)
+        sum += *reinterpret_cast<const HalfPack*>(pairForce_.data() + 4 * static_cast<std::size_t>(i));
+    return sum;
 }
 
 /// q = S p + C p on strands.
@@ -90,16 +98,17 @@ void VertexSystem::multiplyStrands()
         const Pack *p = packs(p_) + first, *sp = packs(sp_) + first;
         Pack* q = packs(q_) + first;
         for (int r = 0; r < group.rows(); ++r) q[r] = sp[r];
-        if (!pairs_.empty())
-            for (int j = 0; j < group.vertices; ++j)
-                for (int l = 0; l < kLanes; ++l) {
-                    const int v = layout.vertex[group.firstVertex + j][l], slot = (group.firstRow + 4 * j) * kLanes + l;
-                    if (v < 0 || unknowns_.slot[v] != slot || fabric_.pinned[v]) continue;
-                    HalfPack sum{};
-                    for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
-                        sum += quad(pairForce_, 4 * incidence_[i].pair + incidence_[i].place);
-                    for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] += sum[a];
-                }
+        for (int j = 0; j < group.vertices && !pairs_.empty(); ++j) {
+            Pack rows[kLanes] = {};
+            for (int l = 0; l < kLanes; ++l) {
+                const int v = layout.vertex[group.firstVertex + j][l], slot = (group.firstRow + 4 * j) * kLanes + l;
+                if (v < 0 || unknowns_.slot[v] != slot || fabric_.pinned[v]) continue;
+                const HalfPack sum = sumOfPairs(v);
+                rows[l] = joinHalves(sum, HalfPack{});
+            }
+            transposeLanes(rows);
+            for (int a = 0; a < 3; ++a) q[4 * j + a] += rows[a];
+        }
         Pack product{};
         for (int r = 0; r < group.rows(); ++r) product += p[r] * q[r];
         laneDot_[g] = product;
@@ -110,9 +119,8 @@ void VertexSystem::multiplyStrands()
 void VertexSystem::applyLinks()
 {
     for (const UncoupledVertex& loose : uncoupled_) {
-        const PairBlock& pair = pairs_[loose.pair];
         const HalfPack u = quad(pOfVertex_, loose.vertex);
-        const HalfPack force = pair.blocks(loose.place, loose.place).own * u;
+        const HalfPack force = loose.block * u;
         const int slot = unknowns_.slot[loose.vertex];
         for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] -= force[a];
         componentOf(loose.vertex).curvature -= dot(u, force);
@@ -148,9 +156,7 @@ void VertexSystem::multiplyCloth()
             [&](int row, HalfPack sum) {
                 const int v = vertices[row], slot = unknowns_.slot[v];
                 if (fabric_.pinned[v]) return;
-                if (!ownsDiagonal_[row] && !pairs_.empty())
-                    for (int i = incidenceBegin_[v]; i < incidenceBegin_[v + 1]; ++i)
-                        sum += quad(pairForce_, 4 * incidence_[i].pair + incidence_[i].place);
+                if (!ownsDiagonal_[row] && !pairs_.empty()) sum += sumOfPairs(v);
                 for (int a = 0; a < 3; ++a) {
                     double& q = q_[slot + a * kLanes];
                     q = (ownsDiagonal_[row] ? q : 0.0) + sum[a];

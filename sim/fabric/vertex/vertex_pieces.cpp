@@ -26,7 +26,7 @@ void VertexSystem::findFreePieces()
 }
 
 /// Σ of the matrix over the vertices of each piece: the cloth's own forces do not answer to moving all of it.
-void VertexSystem::weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles)
+void VertexSystem::weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts)
 {
     if (pieceStiffness_.empty()) return;
     const double perStep2 = 1.0 / (at.h * at.h);
@@ -35,11 +35,12 @@ void VertexSystem::weighFreePieces(const NewtonPoint& at, std::span<const Obstac
         if (freePieceOf_[v] >= 0) pieceStiffness_[freePieceOf_[v]].diagonal() += perStep2 * at.inertia[v];
     for (const ObstacleContact& contact : obstacles)
         if (freePieceOf_[contact.vertex] >= 0) pieceStiffness_[freePieceOf_[contact.vertex]] += contact.stiffness;
-    for (const PairBlock& pair : pairs_) {
-        const int first = freePieceOf_[pair.vertices[0]], second = freePieceOf_[pair.vertices[3]];
+    for (std::size_t i = 0; contacts && i < contacts->size(); ++i) {
+        const int first = freePieceOf_[contacts->vertices[i][0]], second = freePieceOf_[contacts->vertices[i][3]];
         if (first == second) continue;
-        const Vec3 n(pair.normal[0], pair.normal[1], pair.normal[2]);
-        const Mat3 block = pair.stiffness * n * n.transpose() + pair.across * Mat3::Identity();
+        const Vec3& n = contacts->normal[i];
+        const double across = contacts->frictionStiffness[i];
+        const Mat3 block = (contacts->stiffness[i] - across) * n * n.transpose() + across * Mat3::Identity();
         for (int piece : {first, second})
             if (piece >= 0) pieceStiffness_[piece] += block;
     }

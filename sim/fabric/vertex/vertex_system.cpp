@@ -99,9 +99,9 @@ void VertexSystem::assembleSums(const NewtonPoint& at, std::span<const ObstacleC
             }
     }
     addObstacles(obstacles);
-    if (!pairs_.empty()) addContacts();
-    weighFreePieces(at, obstacles);
-    findComponents(at);
+    if (!pairs_.empty()) addContacts(*contacts);
+    weighFreePieces(at, obstacles, contacts);
+    findComponents(at, contacts);
     holdPins();
 }
 

@@ -8,6 +8,7 @@
 #include "sim/fabric/solids/obstacle_contact.h"
 #include "sim/fabric/vertex/cloth_preconditioner.h"
 #include "sim/fabric/vertex/mat3_columns.h"
+#include "sim/fabric/vertex/pair_pack.h"
 #include "sim/fabric/vertex_unknowns.h"
 
 #include <span>
@@ -81,8 +82,6 @@ class VertexSystem {
         std::array<std::array<double, 16>, 3> coupling;
     };
 
-    struct PairBlock;
-
     /// Conjugate gradients of one component.
     struct Component {
         double mass = 0.0;          ///< mass of what is not pinned, with drag [g]
@@ -104,7 +103,7 @@ class VertexSystem {
     };
 
     void layOutPieces();
-    void findComponents(const NewtonPoint& at);
+    void findComponents(const NewtonPoint& at, const ActiveContacts* contacts);
     void beginComponents();
     void setTargets(const LinearTolerance& tolerance, bool isFirst);
     bool findUnsolved(int iterations);
@@ -127,9 +126,14 @@ class VertexSystem {
     bool addCoupling(int a, int b, const Mat3& block);
     Eigen::Map<Mat3> asBlock(int entry) { return Eigen::Map<Mat3>(cloth_.block(entry)); }
     void copyPairs(const ActiveContacts* contacts);
-    void addContacts();
-    static void copyLever(const ActiveContacts::Lever& lever, PairBlock& pair);
-    void sortIncidence();
+    void addContacts(const ActiveContacts& contacts);
+    void layOutPairs(const ActiveContacts* contacts);
+    void copyPair(const ActiveContacts& contacts, std::size_t i);
+    std::size_t slotOfPair(std::size_t i) const;
+    bool isAnyActive(const PairPack& pairs);
+    bool isInStrands(const ActiveContacts& contacts, std::size_t i, int which) const;
+    HalfPack sumOfPairs(int vertex) const;
+    void sortIncidence(const ActiveContacts* contacts);
     void holdPins();
     void copyByVertex(const double* p, int group);
     void applyPairs();
@@ -141,7 +145,7 @@ class VertexSystem {
     void preconditionCloth();
     void nextDirection();
     void findFreePieces();
-    void weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles);
+    void weighFreePieces(const NewtonPoint& at, std::span<const ObstacleContact> obstacles, const ActiveContacts* contacts);
     void balanceFreePieces();
 
     const Fabric& fabric_;
@@ -157,43 +161,23 @@ class VertexSystem {
     mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
     std::vector<Link> links_;
 
-    /// A pair's part of C as the solver reads it; vectors have a fourth component, 0.
-    struct PairBlock {
-        /// Λ of its directions by columns of 4 numbers (ActiveContacts).
-        using Lever = std::array<Mat3Columns::Floats, 2>;
-
-        std::array<double, 4> normal;
-        std::array<double, 4> weights;
-        std::array<int, 4> vertices;
-        double stiffness, across;       ///< k_n − k_t and k_t [dyn/cm]
-        std::uint8_t firstSide;         ///< vertices of the first side
-        std::array<bool, 2> inStrands;  ///< S holds all of the side's own part, else only the diagonals of its vertices on strands
-        bool hasLever;
-        Lever lever;
-
-        /// The side that a direction lies in.
-        int sideOfDirection(int direction) const { return firstSide == 2 && direction == 0 ? 0 : 1; }
-        Mat3Columns turnJacobian(int k) const;
-        /// Blocks of its matrix, Bᵀ H B, of a vertex with itself and with the other end of its edge, by columns. Levers are across the normal.
-        struct Blocks {
-            Mat3Columns own, withOther;
-        };
-        Blocks blocks(int k, int other) const;
-    };
+    /// A pair of a vertex.
     struct Incidence {
-        int pair;
-        int place;  ///< number among the pair's vertices
+        int pair;   ///< number among the contacts
+        int place;  ///< number of the vertex among the pair's
     };
-    /// A vertex on a strand whose side of a pair is not in S but for its own diagonal.
+    /// A vertex on a strand whose side of a pair is not in S but for its own diagonal, which is that block.
     struct UncoupledVertex {
-        int vertex, pair, place;
+        int vertex;
+        Mat3Columns block;
     };
 
-    std::vector<PairBlock> pairs_;
+    std::vector<PairPack> pairs_;  ///< pairs of edges, and from a new pack on of vertices with faces
+    int edgePairs_ = 0;            ///< pairs of edges among them
     std::vector<int> incidenceBegin_, cursor_;
     std::vector<Incidence> incidence_;  ///< incidences of each vertex, in the order of the pairs
     std::vector<UncoupledVertex> uncoupled_;
-    AlignedArray<double> pairForce_;    ///< C p on each vertex of each pair, 4 numbers each
+    AlignedArray<double> pairForce_;    ///< C p on each vertex of each pair, as in incidence_, 4 numbers each
     AlignedArray<double> pOfVertex_;    ///< p of each vertex, 4 numbers each
     std::vector<int> heldSlots_;        ///< slots of the unknowns that are pinned
     std::vector<double> heldGradient_;  ///< gradient of the pinned unknowns before it is removed [dyn, dyn cm]

@@ -72,7 +72,7 @@ TEST(PairTurn, IsTheTurnOfARigidBody)
     }
 }
 
-/// What a turn does to a separation is what its lever makes of the changes of the pair's directions, however they turn and stretch: a force on the
+/// What a turn does to a separation along tangents is what its lever makes of the changes of the pair's directions, however they turn and stretch: a force on the
 /// one does the work that its moment does on the others.
 TEST(PairTurn, DoesWhatItsLeverMakesOfTheChanges)
 {
@@ -88,16 +88,19 @@ TEST(PairTurn, DoesWhatItsLeverMakesOfTheChanges)
         for (Vec3& x : now) x += 0.3 * random.vector();
         const contact::PairTurn turn(firstSide, {0, 1, 2, 3}, before, now);
         const Vec3 u = random.vector();
-        const ActiveContacts::Lever lever = turn.lever(u);
+        const Vec3 normal = random.vector().normalized();
+        const std::array<Vec3, 2> tangents = tangentsOf(normal);
+        const ActiveContacts::Lever lever = turn.lever(u, tangents);
         Vec3 change = Vec3::Zero();
         std::array<Vec3, 2> direction;
         for (int d = 0; d < 2; ++d) {
             const Vec3 first = before[ends[d][1]] - before[ends[d][0]], last = now[ends[d][1]] - now[ends[d][0]];
-            change += lever[d] * (last - first);
+            for (int j = 0; j < 2; ++j) change += lever[d][j].dot(last - first) * tangents[j];
             direction[d] = (first.normalized() + last.normalized()).normalized();
         }
         parallel += std::abs(direction[0].dot(direction[1])) > 0.95;
-        EXPECT_LT((change - (turn * u - u)).norm(), 1.0e-9) << i;
+        const Vec3 turned = turn * u - u;
+        EXPECT_LT((change - (turned - normal.dot(turned) * normal)).norm(), 1.0e-9) << i;
     }
     EXPECT_GT(parallel, 50);
 }

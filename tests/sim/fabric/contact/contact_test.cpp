@@ -200,8 +200,9 @@ TEST(FabricContact, FrictionHasNoMomentAboutItsPair)
             if (friction.isZero(0.0) || std::abs(direction(0).dot(direction(1))) > kNearlyParallel) continue;
             Vec3 sum = Vec3::Zero(), moment = Vec3::Zero(), apart = Vec3::Zero();
             double sizes = 0.0;
+            const std::array<Vec3, 4> forces = contacts.forcesOnVertices(i, friction);
             for (int k = 0; k < 4; ++k) {
-                const Vec3 force = contacts.slipJacobian(i, k).transpose() * friction;
+                const Vec3& force = forces[k];
                 sum += force;
                 moment += (run.x[v[k]] - run.x[v[0]]).cross(force);
                 apart += contacts.weights[i][k] * run.x[v[k]];
