@@ -19,6 +19,8 @@ void Obstacles::add(const Shape& shape, const Motion& motion)
         walls_.push_back({axis, box->box.min()[axis], false});
         walls_.push_back({axis, box->box.max()[axis], true});
     }
+    bodies_.back().isVessel = true;
+    vessels_.push_back({box->box.center(), 0.5 * box->box.sizes() - Vec3::Constant(box->round), box->round});
 }
 
 void Obstacles::startAt(double t0, double t1)
@@ -83,9 +85,8 @@ static bool reaches(const Shape& shape, const Eigen::Isometry3d& toShape, const 
 bool Obstacles::reach(const Vec3& x, double halfEdge, double within, Which which) const
 {
     constexpr int kHalvings = 3;
-    return std::ranges::any_of(bodies_, [&](const Body& body) {
-        return (which == Which::All || body.displaced) && reaches(body.shape, body.toShape, x, halfEdge, within, kHalvings);
-    });
+    return std::ranges::any_of(
+        bodies_, [&](const Body& body) { return body.isOne(which) && reaches(body.shape, body.toShape, x, halfEdge, within, kHalvings); });
 }
 
 int Obstacles::nearest(const Vec3& x) const { return count() == 1 ? 0 : static_cast<int>(nearestBody(x) - bodies_.data()); }

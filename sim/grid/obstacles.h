@@ -28,7 +28,8 @@ class Obstacles {
     bool anyDisplaced() const { return anyDisplaced_; }  ///< whether any moves in that step or in the one before it
 
     double distance(const Vec3& x) const;  ///< distance to the nearest solid [cm], negative inside; infinite without any
-    enum class Which { All, Displaced };
+    /// All, those that moved in this step or the one before, those that are no vessels().
+    enum class Which { All, Displaced, NotVessels };
     /// Does a solid come nearer than `within` to some place of the cube around x [cm]? Rather yes than no: as if it were a ball, and for meshes
     /// a little more.
     bool reach(const Vec3& x, double halfEdge, double within, Which which = Which::All) const;
@@ -87,6 +88,19 @@ class Obstacles {
         bool above;  ///< the solid is on the upper side
     };
     const std::vector<Wall>& planeWalls() const { return walls_; }
+    /// What a resting box that is solid outside leaves, with rounded edges: convex, so that straight ways with both ends in it meet no wall.
+    struct Vessel {
+        Vec3 center, half;  ///< of where its edges begin to be round [cm]
+        double round;       ///< [cm]
+
+        /// @param margin  as near to the wall is not in it [cm]
+        bool holds(const Vec3& x, double margin) const
+        {
+            const Vec3 beyond = (x - center).cwiseAbs() - half;
+            return round > margin ? beyond.cwiseMax(0.0).squaredNorm() < (round - margin) * (round - margin) : beyond.maxCoeff() < round - margin;
+        }
+    };
+    const std::vector<Vessel>& vessels() const { return vessels_; }
 
  private:
     struct Body {
@@ -96,6 +110,8 @@ class Obstacles {
         Eigen::Isometry3d other;  ///< place of the body at the other end of the step
         bool moving = false;      ///< whether it moves in this step
         bool displaced = false;   ///< whether it moves in this step or the one before
+        bool isVessel = false;    ///< whether it is one of vessels()
+        bool isOne(Which which) const { return which == Which::All || (which == Which::Displaced ? displaced : !isVessel); }
     };
     const Body* nearestBody(const Vec3& x) const;
     Vec3 velocityOf(const Body& body, const Vec3& x) const;
@@ -107,6 +123,7 @@ class Obstacles {
 
     std::vector<Body> bodies_;
     std::vector<Wall> walls_;
+    std::vector<Vessel> vessels_;
     double steepest_ = 1.0;
     bool anyMoving_ = false, anyDisplaced_ = false;
     double started_ = std::numeric_limits<double>::infinity();  ///< start of the last step [s]

@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/grid/seams.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -135,6 +136,17 @@ PushOutTotals keepOut(const Obstacles& obstacles, double dx, const std::array<Al
     return pushed;
 }
 
+/// What all vessels leave, but for what is as good as at their walls.
+struct InVessels {
+    const Obstacles& obstacles;
+    double margin;  ///< [cm]
+
+    bool holds(const std::array<AlignedArray<double>, kAxes>& x, std::size_t p) const
+    {
+        return std::ranges::all_of(obstacles.vessels(), [&](const Obstacles::Vessel& v) { return v.holds({x[0][p], x[1][p], x[2][p]}, margin); });
+    }
+};
+
 /// A ball without solids.
 struct ClearBall {
     Vec3 center;
@@ -172,6 +184,8 @@ ClearBall clearAround(const CutGrid& cut, int block, const Vec3i& cell, double s
 PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest,
                                  const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles, ChunkSums<Impulse>& onSolids)
 {
+    constexpr double kAtWall = 1.0e-6;  // [cells]
+    const InVessels inVessels{cut.obstacles, kAtWall * cut.grid.dx};
     const auto ofBlock = [&](std::size_t n, std::span<Impulse> impulses) {
         const int b = order.occupied[n];
         PushOutTotals pushed;
@@ -180,14 +194,18 @@ PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut,
         const double sweep = cut.obstacles.anyMoving() ? cut.obstacles.farthestMove(cut.grid.lowerCorner(b) + Vec3::Constant(half), half) : 0.0;
         const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * cut.grid.dx + reach;
         if (!cut.field.nearSolid(b) && reach < ObstacleField::kExactDistance * cut.grid.dx) return pushed;
+        const bool onlyVessels = !cut.obstacles.reach(cut.grid.lowerCorner(b) + Vec3::Constant(half), half, reach, Obstacles::Which::NotVessels);
         for (int c = 0; c < kBlockCells; ++c) {
             const Vec3i cell(c & 7, c >> 3 & 7, c >> 6);
             const int* start = order.cells(b) + cellRank(cell.x(), cell.y(), cell.z());
             if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
-            const ClearBall clear = clearAround(cut, b, cell, sweep);
-            for (int p = start[0]; p < start[1]; ++p)  // ways are straight: in the ball if both ends are
-                if (!clear.holds(particles.x, p) || (before != nullptr && !clear.holds(*before, p)))
-                    pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses);
+            const auto keepOutOthers = [&](const auto& clear) {  // ways are straight: in what is clear if both ends are
+                for (int p = start[0]; p < start[1]; ++p)
+                    if (!clear.holds(particles.x, p) || (before != nullptr && !clear.holds(*before, p)))
+                        pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses);
+            };
+            if (onlyVessels) keepOutOthers(inVessels);
+            else keepOutOthers(clearAround(cut, b, cell, sweep));
         }
         return pushed;
     };

@@ -56,14 +56,16 @@ void restoreMomentum(StepContext& c, BlockArray<double, 3>& velocity)
 {
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    findChange(velocity, grid.count(), work);
     const UnheldFaces unheld = findUnheld(c);
     const bool carries = c.plan.eliminatedDrag && c.settings().coupling.pressureOnFabric;
-    if (carries) work.coupling->mixture.toMassesOfBoth(*c.plan.eliminatedDrag, work.grid, work.free.change);
-    else if (c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
+    if (!carries && c.plan.sharedFaces) work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.unheld);
     c.plan.heldBodies = findHeldBodies(grid, *c.plan.pressure, unheld);
-    takeMeans(grid, *c.plan.heldBodies, work.free.change, work.free, velocity);
-    if (carries) work.coupling->mixture.fromMassesOfBoth(*c.plan.eliminatedDrag, work.grid);
+    if (std::ranges::any_of(work.free.bodies, [](const FreeLiquid::Body& body) { return !body.isHeld; })) {
+        findChange(velocity, grid.count(), work);
+        if (carries) work.coupling->mixture.toMassesOfBoth(*c.plan.eliminatedDrag, work.grid, work.free.change);
+        takeMeans(grid, *c.plan.heldBodies, work.free.change, work.free, velocity);
+        if (carries) work.coupling->mixture.fromMassesOfBoth(*c.plan.eliminatedDrag, work.grid);
+    }
     if (c.hasObstacles()) work.gainAtWalls.bound(work.obstacleField, velocity);
 }
 

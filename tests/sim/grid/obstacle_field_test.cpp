@@ -10,6 +10,54 @@
 namespace sim::test {
 namespace {
 
+/// What is in a vessel is in front of its walls and the other way about, and on no straight way between two such places is a wall.
+TEST(Obstacles, VesselsHoldWhatIsInFrontOfTheirWalls)
+{
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::size_t held = 0, out = 0;
+    for (int n = 0; n < 60; ++n) {
+        const Vec3 center(unit(random), unit(random), unit(random)), half = Vec3(0.2 + unit(random), 0.2 + unit(random), 0.2 + unit(random));
+        const double round = n % 3 == 0 ? 0.0 : unit(random) * half.minCoeff(), margin = 1.0e-3 * unit(random);
+        const Shape shape = round > 0.0 ? Shape::roundedBox(center, half, round) : Shape::box(center, half);
+        const Vec3 shift(unit(random), -unit(random), 0.3);
+        Obstacles obstacles;
+        obstacles.add(shape.inverted().moved(Eigen::Isometry3d(Eigen::Translation3d(shift))), Motion());
+        ASSERT_EQ(obstacles.vessels().size(), 1u);
+        std::vector<Vec3> inside;
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 x = center + shift + 1.1 * half.cwiseProduct(2.0 * Vec3(unit(random), unit(random), unit(random)) - Vec3::Ones());
+            const double distance = obstacles.distance(x);
+            const bool isHeld = obstacles.vessels()[0].holds(x, margin);
+            if (std::abs(distance - margin) > 1.0e-12) {
+                EXPECT_EQ(isHeld, distance > margin) << n << ": " << distance;
+            }
+            (isHeld ? held : out) += 1;
+            if (isHeld) inside.push_back(x);
+        }
+        for (std::size_t i = 1; i < inside.size(); ++i) EXPECT_FALSE(obstacles.firstContact(inside[i - 1], inside[i], 1.0e-4)) << n;
+    }
+    EXPECT_GT(held, 1000u);
+    EXPECT_GT(out, 1000u);
+}
+
+/// Solids that turn, move or are solid inside are no vessels.
+TEST(Obstacles, VesselsRestAlongTheAxesAndAreSolidOutside)
+{
+    const Shape box = Shape::box(Vec3::Zero(), Vec3::Ones());
+    const Eigen::Isometry3d turned(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
+    Obstacles obstacles;
+    obstacles.add(box, Motion());
+    obstacles.add(box.inverted().moved(turned), Motion());
+    obstacles.add(Shape::ball(Vec3::Zero(), 1.0).inverted(), Motion());
+    EXPECT_TRUE(obstacles.vessels().empty());
+    EXPECT_TRUE(obstacles.reach(Vec3::Zero(), 0.1, 0.1, Obstacles::Which::NotVessels));
+    Obstacles vessel;
+    vessel.add(box.inverted(), Motion());
+    EXPECT_TRUE(vessel.reach(Vec3(0.95, 0.0, 0.0), 0.1, 0.1));
+    EXPECT_FALSE(vessel.reach(Vec3(0.95, 0.0, 0.0), 0.1, 0.1, Obstacles::Which::NotVessels));
+}
+
 TEST(ObstacleField, WallsInPlanesOfFacesCloseThemWhateverTheRounding)
 {
     std::mt19937 random(3);
