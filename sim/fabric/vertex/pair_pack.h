@@ -5,6 +5,7 @@
 #include "sim/fabric/vertex/mat3_columns.h"
 
 #include <array>
+#include <cstring>
 
 namespace sim {
 

@@ -1,6 +1,7 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/vertex/vertex_system.h"
 
+#include <algorithm>
 #include <cmath>
 
 // What contact between parts of the fabric adds to the Newton system.
@@ -22,16 +23,15 @@ void VertexSystem::layOutPairs(const ActiveContacts* contacts)
 {
     const std::size_t count = contacts ? contacts->size() : 0;
     edgePairs_ = 0;
-    while (edgePairs_ < static_cast<int>(count) && contacts->firstSide[edgePairs_] == 2) ++edgePairs_;
+    while (edgePairs_ < count && contacts->firstSide[edgePairs_] == 2) ++edgePairs_;
     pairs_.resize(count > 0 ? slotOfPair(count - 1) / kLanes + 1 : 0);
     pairForce_.resize(16 * count);
 }
 
-std::size_t VertexSystem::slotOfPair(std::size_t i) const
-{
-    const std::size_t edges = edgePairs_;
-    return i < edges ? i : i - edges + (edges + kLanes - 1) / kLanes * kLanes;
-}
+/// Packs of pairs of edges.
+std::size_t VertexSystem::edgePacks() const { return (edgePairs_ + kLanes - 1) / kLanes; }
+
+std::size_t VertexSystem::slotOfPair(std::size_t i) const { return i < edgePairs_ ? i : i - edgePairs_ + edgePacks() * kLanes; }
 
 /// Whether S holds all of a side's own part, else only the diagonals of its vertices on strands.
 bool VertexSystem::isInStrands(const ActiveContacts& contacts, std::size_t i, int which) const
@@ -88,9 +88,9 @@ void VertexSystem::copyPairs(const ActiveContacts* contacts)
     layOutPairs(contacts);
     sortIncidence(contacts);
     parallelFor(pairs_.size(), 128, [&](std::size_t n) {
-        const std::size_t edges = edgePairs_, firstFace = (edges + kLanes - 1) / kLanes * kLanes, begin = n * kLanes;
-        const std::size_t first = begin < firstFace ? begin : begin - firstFace + edges;
-        const std::size_t end = std::min(first + kLanes, begin < firstFace ? edges : contacts->size());
+        const bool isEdges = n < edgePacks();
+        const std::size_t first = isEdges ? n * kLanes : edgePairs_ + (n - edgePacks()) * kLanes;
+        const std::size_t end = std::min(first + kLanes, isEdges ? edgePairs_ : contacts->size());
         for (std::size_t i = first; i < end; ++i) copyPair(*contacts, i);
     });
 }

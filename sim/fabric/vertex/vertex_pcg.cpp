@@ -50,7 +50,6 @@ bool VertexSystem::isAnyActive(const PairPack& pairs)
 /// C p of every pair, on each of its vertices: Bᵀ H B p, but for what S has of it.
 void VertexSystem::applyPairs()
 {
-    const std::size_t edgePacks = (edgePairs_ + kLanes - 1) / kLanes;
     parallelFor(pairs_.size(), 64, [&](std::size_t n) {
         const PairPack& pairs = pairs_[n];
         if (!isAnyActive(pairs)) return;
@@ -64,7 +63,7 @@ void VertexSystem::applyPairs()
             p[k] = {rows[0], rows[1], rows[2]};
             p[k + 1] = {rows[4], rows[5], rows[6]};
         }
-        const std::array<PackVec3, 4> force = n < edgePacks ? pairs.times<2>(p) : pairs.times<1>(p);
+        const std::array<PackVec3, 4> force = n < edgePacks() ? pairs.times<2>(p) : pairs.times<1>(p);
         for (int k = 0; k < 4; k += 2) {
             const Pack zero = broadcast(0.0);
             Pack rows[kLanes] = {force[k].x, force[k].y, force[k].z, zero, force[k + 1].x, force[k + 1].y, force[k + 1].z, zero};

@@ -129,6 +129,7 @@ class VertexSystem {
     void addContacts(const ActiveContacts& contacts);
     void layOutPairs(const ActiveContacts* contacts);
     void copyPair(const ActiveContacts& contacts, std::size_t i);
+    std::size_t edgePacks() const;
     std::size_t slotOfPair(std::size_t i) const;
     bool isAnyActive(const PairPack& pairs);
     bool isInStrands(const ActiveContacts& contacts, std::size_t i, int which) const;
@@ -173,7 +174,7 @@ class VertexSystem {
     };
 
     std::vector<PairPack> pairs_;  ///< pairs of edges, and from a new pack on of vertices with faces
-    int edgePairs_ = 0;            ///< pairs of edges among them
+    std::size_t edgePairs_ = 0;    ///< pairs of edges among them
     std::vector<int> incidenceBegin_, cursor_;
     std::vector<Incidence> incidence_;  ///< incidences of each vertex, in the order of the pairs
     std::vector<UncoupledVertex> uncoupled_;
