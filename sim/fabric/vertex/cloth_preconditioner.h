@@ -22,16 +22,18 @@ class ClothPreconditioner {
     void factor(const BlockMatrix& matrix, const std::vector<Mat3>& extra);
     int parts() const { return static_cast<int>(partBegin_.size()) - 1; }
     int partBegin(int part) const { return partBegin_[part]; }
-    /// z = (L D Lᵀ)⁻¹ r for the rows of a part; one 3-vector per row.
-    void solve(int part, const double* r, double* z) const;
+    /// z = (L D Lᵀ)⁻¹ r for the rows of a part; three numbers and a 0 per row.
+    void solve(int part, const HalfPack* r, HalfPack* z) const;
 
  private:
     std::vector<int> partBegin_;
     std::vector<char> skipped_;
     std::vector<int> begin_, column_, source_;  ///< strictly lower blocks by row: column, and where the transpose stands in the matrix
     std::vector<int> droppedBegin_, dropped_;   ///< blocks that are not in the pattern, or their transposes, by row
-    AlignedArray<double> lower_;                ///< L, 9 per block
-    AlignedArray<double> inverse_;              ///< D⁻¹, 9 per row
+    // Rounded: what is left out of the factor is more. Behind the last block one number more may be read.
+    AlignedArray<float> lower_;                ///< L, 9 per block
+    AlignedArray<float> inverse_;              ///< D⁻¹, 9 per row
+    std::vector<std::vector<Mat3>> unscaled_;  ///< L D of the row that each part works on
 };
 
 }  // namespace sim

@@ -219,9 +219,10 @@ void VertexSystem::preconditionCloth()
         if (!isAnyRowActive(begin, end)) return;
         for (int row = begin; row < end; ++row) {
             const int slot = unknowns_.slot[vertices[row]];
-            for (int a = 0; a < 3; ++a) clothIn_[3 * row + a] = ownsDiagonal_[row] ? 0.0 : residual_[slot + a * kLanes];
+            quad(clothIn_, row) =
+                ownsDiagonal_[row] ? HalfPack{} : HalfPack{residual_[slot], residual_[slot + kLanes], residual_[slot + 2 * kLanes], 0.0};
         }
-        clothFactor_.solve(part, clothIn_.data(), clothOut_.data());
+        clothFactor_.solve(part, &quad(clothIn_, 0), &quad(clothOut_, 0));
         RunSums dots(runDot_);
         for (int row = begin; row < end; ++row) {
             if (ownsDiagonal_[row]) continue;
@@ -229,9 +230,9 @@ void VertexSystem::preconditionCloth()
             const bool isHeld = fabric_.pinned[vertices[row]];
             double product = 0.0;
             for (int a = 0; a < 3; ++a) {
-                const double z = isHeld ? 0.0 : clothOut_[3 * row + a];
+                const double z = isHeld ? 0.0 : clothOut_[4 * row + a];
                 z_[slot + a * kLanes] = z;
-                product += z * clothIn_[3 * row + a];
+                product += z * clothIn_[4 * row + a];
             }
             dots.add(runOfRow_[row], product);
         }

@@ -25,8 +25,8 @@ VertexSystem::VertexSystem(const Fabric& fabric, const FabricSettings& settings)
     findLinks();
     findFreePieces();
     clothExtra_.resize(shells_.vertices().size());
-    clothIn_.resize(3 * shells_.vertices().size());
-    clothOut_.resize(3 * shells_.vertices().size());
+    clothIn_.resize(4 * shells_.vertices().size());
+    clothOut_.resize(4 * shells_.vertices().size());
     clothRow_.assign(fabric.vertexCount(), -1);
     for (std::size_t row = 0; row < shells_.vertices().size(); ++row) clothRow_[shells_.vertices()[row]] = static_cast<int>(row);
 }

@@ -159,7 +159,7 @@ class VertexSystem {
     std::vector<char> ownsDiagonal_;                   ///< whether each row of cloth is on a strand: S has its diagonal block instead of K
     std::vector<int> clothRow_;                        ///< row of each vertex; −1 without cloth
     std::vector<Mat3> clothExtra_;                     ///< contact's part of the diagonal, for the preconditioner [dyn/cm]
-    mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth
+    mutable AlignedArray<double> clothIn_, clothOut_;  ///< vectors by rows of cloth, 4 numbers each
     std::vector<Link> links_;
 
     /// A pair of a vertex.
