@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace app {
 
@@ -67,7 +68,7 @@ class Panel {
         for (const std::size_t i : numbers) hasCourse_ = hasCourse_ || check(i).hasCurve();
         for (const std::size_t i : numbers) addBand(i);
         for (const std::size_t i : numbers) addKnown(i);
-        for (const std::size_t i : numbers) addLine(i, "3 with lines lw 2 lc rgb '" + std::string(kPlotColors[2]) + "'", "found");
+        for (const std::size_t i : numbers) addLine(i, fmt::format("3 with lines lw 2 lc rgb '{}'", kPlotColors[2]), "found");
     }
     const std::string& text() const { return text_; }
 
@@ -83,14 +84,19 @@ class Panel {
     {
         add(fmt::format("{} skip 1 using ($1=={}?$2:NaN):{}", file_, i, columns), name);
     }
-    /// The band around a measured course, or between the ends of a measured value.
+    /// The band around a measured course, or between the ends of a measured value; where none is known, what is allowed of it.
     void addBand(std::size_t i)
     {
-        constexpr const char* kStyle = "with filledcurves fc rgb '#dddddd' fs solid noborder";
+        constexpr const char *kStyle = "with filledcurves fc rgb '#dddddd' fs solid noborder",
+                             *kAllowedStyle = "with filledcurves fc rgb '#f0f0f0' fs solid noborder";
+        const bool isValue = result_->validation.kind == KnownFrom::Measured && hasLine(check(i)) && !hasCourse_;
         const bool hasEnds =
             result_->validation.kind == KnownFrom::Measured && check(i).statistic <= Statistic::Largest && check(i).atLeast && check(i).atMost;
         if (check(i).hasBand()) addLine(i, fmt::format("5:6 {}", kStyle), "scatter");
         else if (hasEnds) addLine(i, fmt::format("({}):({}) {}", *check(i).atLeast, *check(i).atMost, kStyle), "scatter");
+        else if (isValue && check(i).tolerance)
+            addLine(i, fmt::format("($4*{}):($4*{}) {}", 1.0 - *check(i).tolerance, 1.0 + *check(i).tolerance, kAllowedStyle), "allowed");
+        else if (isValue && check(i).within) addLine(i, fmt::format("($4-{0}):($4+{0}) {1}", *check(i).within, kAllowedStyle), "allowed");
     }
     /// A measured course, or a value where there is no course, as a grey line along the readings, a time as an upright one between the smallest
     /// and the largest of them.
@@ -112,12 +118,29 @@ class Panel {
     std::vector<std::string> named_;
 };
 
+/// Distance of ticks at which a few fit under a panel: 1, 2 or 5 times a power of ten; NaN where nothing was read at two places.
+double ticksOf(const CaseResult& result, const std::vector<std::size_t>& numbers)
+{
+    constexpr double kMost = 5.0;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const std::size_t i : numbers)
+        for (const Sample& sample : result.readings[i]) low = std::min(low, sample.at), high = std::max(high, sample.at);
+    const double least = (high - low) / kMost, power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (digit * power >= least) return digit * power;
+    return 10.0 * power;
+}
+
 std::string panel(const CaseResult& result, const std::vector<std::size_t>& numbers)
 {
     std::vector<const Check*> checks;
     for (const std::size_t i : numbers) checks.push_back(&result.validation.checks[i]);
-    return fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nplot {}\n", labelOf(titleOf(checks)), abscissaLabel(*checks.front()),
-                       readingsLabel(checks), Panel(result, numbers).text());
+    const double ticks = ticksOf(result, numbers);
+    std::string text =
+        fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", labelOf(titleOf(checks)), abscissaLabel(*checks.front()), readingsLabel(checks));
+    if (std::isfinite(ticks) && ticks > 0.0) text += fmt::format("set xtics {:.6g}\n", ticks);
+    else text += "set xtics autofreq\n";
+    return text + fmt::format("plot {}\n", Panel(result, numbers).text());
 }
 
 }  // namespace
@@ -147,7 +170,7 @@ std::string validationPlotScript(const CaseResult& result, const std::string& pi
     std::string text = fmt::format(
         "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
         "set multiplot layout {},{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
-        "set xtics autofreq\nset grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset bmargin 5.5\n"
+        "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset bmargin 5.5\n"
         "set format y '%.4g'\n",
         std::max<std::size_t>(560, 400 * columns), 380 * rows + 40, gnuplotText(picture), rows, columns, gnuplotText(result.setup.scene.title));
     for (const auto& numbers : panels) text += panel(result, numbers);

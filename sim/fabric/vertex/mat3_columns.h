@@ -14,7 +14,6 @@ struct Mat3Columns {
         for (int a = 0; a < 3; ++a) column[a] += o.column[a];
         return *this;
     }
-    HalfPack operator*(const HalfPack& u) const { return u[0] * column[0] + u[1] * column[1] + u[2] * column[2]; }
     Mat3 matrix() const
     {
         Mat3 m;

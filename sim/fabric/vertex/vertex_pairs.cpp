@@ -67,7 +67,7 @@ void VertexSystem::sortIncidence(const ActiveContacts* contacts)
             incidence_[place] = {static_cast<int>(i), k};
             pack.incidence[k][slot % kLanes] = place;
             if (!inStrands[k < contacts->firstSide[i] ? 0 : 1] && unknowns_.isOnStrand(v) && !fabric_.pinned[v])
-                uncoupled_.push_back({v, RoundedPair(*contacts, i).block(k, k)});
+                uncoupled_.push_back({v, RoundedPair(*contacts, i).block(k, k).matrix()});
         }
     }
 }

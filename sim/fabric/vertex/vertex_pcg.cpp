@@ -118,11 +118,11 @@ void VertexSystem::multiplyStrands()
 void VertexSystem::applyLinks()
 {
     for (const UncoupledVertex& loose : uncoupled_) {
-        const HalfPack u = quad(pOfVertex_, loose.vertex);
-        const HalfPack force = loose.block * u;
+        const HalfPack p = quad(pOfVertex_, loose.vertex);
+        const Vec3 u(p[0], p[1], p[2]), force = loose.block * u;
         const int slot = unknowns_.slot[loose.vertex];
         for (int a = 0; a < 3; ++a) q_[slot + a * kLanes] -= force[a];
-        componentOf(loose.vertex).curvature -= dot(u, force);
+        componentOf(loose.vertex).curvature -= u.dot(force);
     }
     for (const Link& link : links_) {
         if (fabric_.pinned[link.vertex]) continue;

@@ -170,7 +170,7 @@ class VertexSystem {
     /// A vertex on a strand whose side of a pair is not in S but for its own diagonal, which is that block.
     struct UncoupledVertex {
         int vertex;
-        Mat3Columns block;
+        Mat3 block;
     };
 
     std::vector<PairPack> pairs_;  ///< pairs of edges, and from a new pack on of vertices with faces

@@ -130,9 +130,11 @@ TEST(Validation, ChecksOfOneReadingShareAPanel)
     ASSERT_EQ(result.findings.size(), 4u) << result.failure;
     EXPECT_EQ(panelsOf(result.validation.checks), (std::vector<std::vector<std::size_t>>{{0, 1, 3}, {2}}));
     const std::string script = validationPlotScript(result, "flight.png");
-    for (const char* part : {"layout 1,2", "set title 'course'", "set ylabel '[cm]'", "title 'scatter'", "(0.04):($0==0?1:1.05)", "title 'found'"})
+    for (const char* part : {"layout 1,2", "set title 'course'", "set ylabel '[cm]'", "title 'scatter'", "(0.04):($0==0?1:1.05)", "title 'found'",
+                             "set xtics 0.01\n", "($4-1):($4+1)", "title 'allowed'"})
         EXPECT_NE(script.find(part), std::string::npos) << part << "\n" << script;
     EXPECT_EQ(script.find("set title 'peak'"), std::string::npos) << script;
+    EXPECT_EQ(script.find("($4*0.8)"), std::string::npos) << "where the course has a band";
 }
 
 TEST(Validation, WhatHasNoValueFails)
