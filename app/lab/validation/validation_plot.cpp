@@ -170,7 +170,7 @@ std::string validationPlotScript(const CaseResult& result, const std::string& pi
     std::string text = fmt::format(
         "set terminal pngcairo size {},{} font 'DejaVu Sans,11'\nset output {}\nset datafile separator ','\n"
         "set multiplot layout {},{} title {} noenhanced font ',13'\nset border 3 lw 1\nset tics nomirror out scale 0.6\n"
-        "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 2\nset bmargin 5.5\n"
+        "set grid ytics lc rgb '#dddddd' lw 1\nset key below horizontal samplen 1.2\nset bmargin 5.5\n"
         "set format y '%.4g'\n",
         std::max<std::size_t>(560, 400 * columns), 380 * rows + 40, gnuplotText(picture), rows, columns, gnuplotText(result.setup.scene.title));
     for (const auto& numbers : panels) text += panel(result, numbers);
