@@ -1,5 +1,4 @@
 #include "sim/core/parallel.h"
-#include "sim/fabric/vertex/mat3_columns.h"
 #include "sim/fabric/vertex/run_sums.h"
 #include "sim/fabric/vertex/vertex_system.h"
 

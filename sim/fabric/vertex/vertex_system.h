@@ -7,7 +7,6 @@
 #include "sim/fabric/shells/shells.h"
 #include "sim/fabric/solids/obstacle_contact.h"
 #include "sim/fabric/vertex/cloth_preconditioner.h"
-#include "sim/fabric/vertex/mat3_columns.h"
 #include "sim/fabric/vertex/pair_pack.h"
 #include "sim/fabric/vertex_unknowns.h"
 
