@@ -52,14 +52,6 @@ bool isInPlaneWall(const Obstacles& obstacles, const Vec3& x, int axis, double d
 
 }  // namespace
 
-/// Call f(place, block) for all blocks near solids, at the same time only for such that do not touch each other: f may write one cell far into
-/// the neighbours, in an order that does not depend on the threads.
-template <class F>
-void WallFaces::inColors(F&& f) const
-{
-    for (const std::vector<int>& color : colors_) parallelFor(color.size(), [&](std::size_t n) { f(color[n], blocks_[color[n]]); });
-}
-
 void WallFaces::findLayers(const CutGrid& cut, const FaceFields& faces)
 {
     for (BlockBits<3>& known : known_) {
@@ -97,8 +89,8 @@ void WallFaces::findLayers(const CutGrid& cut, const FaceFields& faces)
 void WallFaces::findFollowers(const BlockGrid& grid, const Obstacles& obstacles, double friction, const FaceFields& faces)
 {
     constexpr double kAlong = 1.0 - 1.0e-6;  ///< cosine from which a wall's normal is along the grid [-]
-    parallelFor(blocks_.size(), [&](std::size_t n) {
-        const int b = blocks_[n];
+    parallelFor(near_.blocks.size(), [&](std::size_t n) {
+        const int b = near_.blocks[n];
         followers_[n].clear();
         for (int a = 0; a < kAxes; ++a)
             forEachBit(freshBits(known_[kLayers], known_[0], b, a).data(), [&](int face) {
@@ -111,22 +103,15 @@ void WallFaces::findFollowers(const BlockGrid& grid, const Obstacles& obstacles,
             });
     });
     count_ = 0;
-    for (std::size_t n = 0; n < blocks_.size(); ++n) count_ += followers_[n].size();
+    for (std::size_t n = 0; n < near_.blocks.size(); ++n) count_ += followers_[n].size();
 }
 
 void WallFaces::find(const CutGrid& cut, double friction, const FaceFields& faces)
 {
-    blocks_ = cut.field.blocksNearSolid();
-    place_.assign(cut.grid.count() + 1, BlockGrid::kNone);
-    for (auto& color : colors_) color.clear();
-    if (followers_.size() < blocks_.size()) followers_.resize(blocks_.size());
-    for (std::size_t n = 0; n < blocks_.size(); ++n) {
-        const Vec3i& at = cut.grid.coords(blocks_[n]);
-        place_[blocks_[n]] = static_cast<int>(n);
-        colors_[(at.x() & 1) + 2 * (at.y() & 1) + 4 * (at.z() & 1)].push_back(static_cast<int>(n));
-    }
+    near_.set(cut.grid, cut.field.blocksNearSolid());
+    if (followers_.size() < near_.blocks.size()) followers_.resize(near_.blocks.size());
     mirrored.resize(cut.grid.count());
-    if (blocks_.empty()) {
+    if (near_.blocks.empty()) {
         count_ = 0;
         return;
     }
@@ -137,7 +122,7 @@ void WallFaces::find(const CutGrid& cut, double friction, const FaceFields& face
 WallFaces::WallDriven WallFaces::drivenByWalls(const ObstacleField& field, const FaceFields& faces, const BlockArray<double, 3>& weightless) const
 {
     const auto ofBlock = [&](std::size_t n) {
-        const int b = blocks_[n];
+        const int b = near_.blocks[n];
         WallDriven sum;
         for (const Follower& f : followers_[n]) {
             if (f.share == 0.0) continue;
@@ -149,24 +134,24 @@ WallFaces::WallDriven WallFaces::drivenByWalls(const ObstacleField& field, const
         }
         return sum;
     };
-    return parallelReduce(blocks_.size(), WallDriven{}, ofBlock, std::plus<>());
+    return parallelReduce(near_.blocks.size(), WallDriven{}, ofBlock, std::plus<>());
 }
 
-void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces, BlockArray<double, 3>& weightless)
+void WallFaces::fold(const CutGrid& cut, ObstacleField& field, FaceFields& faces, BlockArray<double, 3>& weightless)
 {
     field.foldRoom(!empty());
     if (empty()) return;
-    folded_.resize(static_cast<int>(blocks_.size()));
-    parallelFor(blocks_.size(), 8,
+    folded_.resize(static_cast<int>(near_.blocks.size()));
+    parallelFor(near_.blocks.size(), 8,
                 [&](std::size_t n) { std::fill_n(folded_.block(static_cast<int>(n)), BlockArray<double, kFolded>::kStride, 0.0); });
     constexpr std::array kKinds = {kMass, kMomentum, kRoom, kWeightless};
     const auto give = [&](CellRef to, int component, double share, const std::array<double, kKinds.size()>& what) {
-        double* target = folded_.block(place_[to.block]) + to.cell;
+        double* target = folded_.block(near_.place[to.block]) + to.cell;
         for (std::size_t n = 0; n < kKinds.size(); ++n) target[(kKinds[n] + component) * kBlockCells] += share * what[n];
     };
     // First each closed face's share …
-    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
-        const int b = blocks_[n];
+    parallelFor(near_.blocks.size(), 4, [&](std::size_t n) {
+        const int b = near_.blocks[n];
         for (const Follower& f : followers_[n]) {
             if (f.share == 0.0) continue;
             double &mass = faces.sums.block(b, FaceFields::kMass + f.axis)[f.face],
@@ -177,20 +162,20 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
     });
     // … and then forwards, sweep by sweep.
     for (int layer = kLayers; layer >= 1; --layer)
-        inColors([&](int place, int b) {
+        near_.inColors([&](int place, int b) {
             for (int a = 0; a < kAxes; ++a) {
                 forEachBit(freshBits(known_[layer], known_[layer - 1], b, a).data(), [&](int face) {
                     const double* from = folded_.block(place) + face;
                     int count = 0;
-                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef) { ++count; });
+                    forEachKnownBeside(cut.grid, b, a, face, known_[layer - 1], [&](CellRef) { ++count; });
                     std::array<double, kKinds.size()> what;
                     for (std::size_t n = 0; n < kKinds.size(); ++n) what[n] = from[(kKinds[n] + a) * kBlockCells];
-                    forEachKnownBeside(grid, b, a, face, known_[layer - 1], [&](CellRef to) { give(to, a, 1.0 / count, what); });
+                    forEachKnownBeside(cut.grid, b, a, face, known_[layer - 1], [&](CellRef to) { give(to, a, 1.0 / count, what); });
                 });
             }
         });
-    parallelFor(blocks_.size(), [&](std::size_t n) {
-        const int b = blocks_[n];
+    parallelFor(near_.blocks.size(), [&](std::size_t n) {
+        const int b = near_.blocks[n];
         for (int a = 0; a < kAxes; ++a)
             forEachBit(known_[0].block(b, a), [&](int face) {
                 const double* from = folded_.block(static_cast<int>(n)) + face;
@@ -200,13 +185,15 @@ void WallFaces::fold(const BlockGrid& grid, ObstacleField& field, FaceFields& fa
                 weightless.block(b, a)[face] += from[(kWeightless + a) * kBlockCells];
             });
     });
+    slanted_.pass(cut, near_, known_[0], field, faces, weightless);
 }
 
 void WallFaces::extend(const CutGrid& cut, BlockBits<3>& valid, BlockArray<double, 3>& velocity)
 {
+    if (!empty()) slanted_.read(cut.grid, near_, velocity);
     for (int layer = 1; layer <= kLayers && !empty(); ++layer)
-        parallelFor(blocks_.size(), [&](std::size_t n) {
-            const int b = blocks_[n];
+        parallelFor(near_.blocks.size(), [&](std::size_t n) {
+            const int b = near_.blocks[n];
             for (int a = 0; a < kAxes; ++a) {
                 forEachBit(freshBits(known_[layer], known_[layer - 1], b, a).data(), [&](int face) {
                     double sum = 0.0;
@@ -219,8 +206,8 @@ void WallFaces::extend(const CutGrid& cut, BlockBits<3>& valid, BlockArray<doubl
                 });
             }
         });
-    parallelFor(blocks_.size(), [&](std::size_t n) {
-        const int b = blocks_[n];
+    parallelFor(near_.blocks.size(), [&](std::size_t n) {
+        const int b = near_.blocks[n];
         for (int a = 0; a < kAxes; ++a)
             forEachBit(cut.field.closed(b, a), [&](int face) {
                 if (known_[kLayers].test(b, face, a)) valid.set(b, face, a);

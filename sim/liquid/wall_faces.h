@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/liquid/liquid_grid.h"
+#include "sim/liquid/slanted_walls.h"
 
 #include <array>
 #include <vector>
@@ -31,9 +31,9 @@ class WallFaces {
     WallDriven driven;  ///< part that walls drive in this step; nothing where all walls rest
 
     /// Move mass, momentum and room of the closed faces to those that they follow, and of the mass what nothing feels the weight of. What follows no
-    /// open face keeps its own.
+    /// open face keeps its own. Then open faces at slanted walls pass on what is more than their open part (SlantedWalls).
     /// @param weightless  as for drivenByWalls
-    void fold(const BlockGrid& grid, ObstacleField& field, FaceFields& faces, BlockArray<double, 3>& weightless);
+    void fold(const CutGrid& cut, ObstacleField& field, FaceFields& faces, BlockArray<double, 3>& weightless);
 
     BlockBits<3> mirrored;  ///< faces that plane walls give a velocity to, one wall after another
 
@@ -54,15 +54,12 @@ class WallFaces {
 
     void findLayers(const CutGrid& cut, const FaceFields& faces);
     void findFollowers(const BlockGrid& grid, const Obstacles& obstacles, double friction, const FaceFields& faces);
-    template <class F>
-    void inColors(F&& f) const;
 
     std::size_t count_ = 0;                         ///< number of followers
     std::array<BlockBits<3>, kLayers + 1> known_;   ///< faces with a velocity after so many sweeps; 0: open faces with mass
     std::vector<std::vector<Follower>> followers_;  ///< followers of each block near a solid
-    std::vector<int> place_;                        ///< place of each block among those near a solid
-    std::array<std::vector<int>, 8> colors_;        ///< places of blocks of which no two touch
-    std::vector<int> blocks_;                       ///< blocks near a solid
+    ColoredBlocks near_;                            ///< blocks near a solid
+    SlantedWalls slanted_;                          ///< open faces at walls that go slanted through the grid
     BlockArray<double, kFolded> folded_;            ///< what images fold onto the faces of each block near a solid
 };
 

@@ -182,7 +182,7 @@ void mirrorAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double fri
     mirrorAtPlaneWalls(grid, obstacles, liquid.faces, liquid.weightless);
     followers.find({grid, field, obstacles}, friction, liquid.faces);
     followers.driven = obstacles.anyMoving() ? followers.drivenByWalls(field, liquid.faces, liquid.weightless) : WallFaces::WallDriven{};
-    followers.fold(grid, field, liquid.faces, liquid.weightless);
+    followers.fold({grid, field, obstacles}, field, liquid.faces, liquid.weightless);
 }
 
 void withholdWeightOfImages(const ObstacleField& field, const Vec3& gravity, double dt, LiquidGrid& liquid)
