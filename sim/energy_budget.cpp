@@ -229,7 +229,26 @@ void EnergyBudget::walls(const BlockArray<double, 3>& read, const Vec3& fall, do
     book(EnergyChange::Solids, work + lifted);
     book(EnergyChange::Walls, -work);
     book(EnergyChange::Gravity, -lifted);  // what the walls hold of the liquid's weight does not act on the faces
-    after(EnergyChange::Walls);
+    // Open faces keep their energy: that particles read some with those beside them (SlantedWalls) is a part of the way to the particles.
+    const double onClosed = gainOfClosed();
+    book(EnergyChange::Walls, onClosed);
+    last_.liquidKinetic += onClosed;
+}
+
+double EnergyBudget::gainOfClosed() const
+{
+    const std::vector<int>& blocks = work_.obstacleField.blocksNearSolid();
+    return parallelSum(blocks.size(), [&](std::size_t n) {
+        const int b = blocks[n];
+        double gained = 0.0;
+        for (int a = 0; a < kAxes; ++a)
+            for (int c = 0; c < kBlockCells; ++c) {
+                if (work_.obstacleField.open(b, a)[c] > 0.0) continue;
+                const double now = work_.grid.faces.velocity.block(b, a)[c], before = fallen_.block(b, a)[c];
+                gained += 0.5 * mass_.block(b, a)[c] * (now - before) * (now + before);
+            }
+        return gained;
+    });
 }
 
 void EnergyBudget::bookSolidsWork()

@@ -80,6 +80,8 @@ class EnergyBudget {
     double workAgainst(const BlockArray<double>& pressure, double dt) const;
     /// Work of moving solids on the faces behind them, which get their velocity [erg]: impulse times velocity.
     double workOnFollowers(const BlockArray<double, 3>& read, const Vec3& fall, double flipRatio) const;
+    /// What walls have changed of the energy of closed faces [erg].
+    double gainOfClosed() const;
     void book(EnergyChange change, double energy) { (*changes_)[change] += energy; }
 
     const State& state_;

@@ -22,8 +22,10 @@ void ObstacleField::resizeSlots(int count)
         ofSecond_.resize(count);
     }
     shared_.resize(count, 0);
+    even_.resize(count, 1);
     room_.resize(count);
     closed_.resize(count);
+    whole_.resize(count);
     blocked_.resize(count);
     centerDistance_.resize(count);
     owner_.resize(count);
@@ -42,6 +44,7 @@ void ObstacleField::makeOpenSlot(double dx)
             open_.block(kOpenSlot, a)[c] = room_.block(kOpenSlot, a)[c] = 1.0;
             wallVelocity_.block(kOpenSlot, a)[c] = swept_.block(kOpenSlot, a)[c] = 0.0;
             closed_.block(kOpenSlot, a)[c / 64] = 0;
+            whole_.block(kOpenSlot, a)[c / 64] = ~std::uint64_t{0};
         }
     }
 }
@@ -136,6 +139,16 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
     if (areSeveral_) computeClosed(grid, block, slot, obstacles);
     findBlocked(grid, block, slot, obstacles, faces);
     roomOfFaces(grid, block, obstacles, mirrors, scratch, room_.block(slot));
+    even_[slot] = isSlotEven(slot);
+}
+
+bool ObstacleField::isSlotEven(int slot) const
+{
+    constexpr double kRounding = 1.0e-12;
+    const double *open = open_.block(slot), *room = room_.block(slot);
+    for (std::size_t n = 0; n < BlockArray<double, 3>::kStride; ++n)
+        if (open[n] > 0.0 && std::abs(open[n] - room[n]) > kRounding) return false;
+    return true;
 }
 
 /// Is there a wall between the middles of a cell and the one below, both of which are outside of it? It is thinner than a cell, and may be
@@ -152,7 +165,7 @@ bool ObstacleField::isWallBetween(const BlockGrid& grid, const Obstacles& obstac
 void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces)
 {
     const Vec3 corner = grid.lowerCorner(block);
-    for (int a = 0; a < kAxes; ++a) std::fill_n(closed_.block(slot, a), BlockBits<3>::kWords, 0);
+    for (BlockBits<3>* bits : {&closed_, &whole_}) std::fill_n(bits->block(slot), kAxes * BlockBits<3>::kWords, 0);
     for (int k = 0; k < kBlockEdge; ++k)
         for (int j = 0; j < kBlockEdge; ++j)
             for (int i = 0; i < kBlockEdge; ++i) {
@@ -166,6 +179,7 @@ void ObstacleField::computeFaces(const BlockGrid& grid, int block, int slot, con
                     if (open > 0.0 && isWallBetween(grid, obstacles, center, distance, a)) open = 0.0;
                     open_.block(slot, a)[cell] = open;
                     if (open == 0.0) closed_.set(slot, cell, a);
+                    if (open >= 1.0) whole_.set(slot, cell, a);
                     if (!anyMoved_) continue;
                     const double wall = touchedByMoving_[slot] ? obstacles.velocity(center - 0.5 * grid.dx * Vec3::Unit(a))[a] : 0.0;
                     wallVelocity_.block(slot, a)[cell] = wall;

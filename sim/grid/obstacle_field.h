@@ -34,6 +34,10 @@ class ObstacleField {
     const double* open(int block, int axis) const { return open_.block(slot_[block], axis); }
     /// Faces of open fraction 0.
     const std::uint64_t* closed(int block, int axis) const { return closed_.block(slot_[block], axis); }
+    /// Faces of open fraction 1.
+    const std::uint64_t* whole(int block, int axis) const { return whole_.block(slot_[block], axis); }
+    /// Have all faces of a block that are not closed just as much room as is open of them?
+    bool isEven(int block) const { return !isFolded_ && even_[slot_[block]] != 0; }
     /// Share of each lower face's B-spline that is outside the solids, 0 … 1: a face amid liquid carries that much of ρ dx³.
     /// After foldRoom with what has been added since.
     const double* room(int block, int axis) const { return (isFolded_ ? folded_ : room_).block(slot_[block], axis); }
@@ -66,6 +70,7 @@ class ObstacleField {
     void computeSlot(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, bool mirrors, RoomScratch& scratch);
     static bool isWallBetween(const BlockGrid& grid, const Obstacles& obstacles, const Vec3& center, double distance, int axis);
     void computeFaces(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
+    bool isSlotEven(int slot) const;
     void computeClosed(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles);
     void findBlocked(const BlockGrid& grid, int block, int slot, const Obstacles& obstacles, const OpenFaces& faces);
 
@@ -79,13 +84,13 @@ class ObstacleField {
     int slotCount_ = 0;
     bool isFolded_ = false, mirrors_ = false, areSeveral_ = false;
     BlockArray<double, 3> open_, room_, folded_, wallVelocity_, swept_;
-    BlockBits<3> closed_;
+    BlockBits<3> closed_, whole_;
     BlockBits<> blocked_;
     BlockArray<double> centerDistance_;
     BlockArray<std::uint16_t> owner_;
-    std::vector<std::uint8_t> shared_;     ///< per slot
-    BlockArray<std::uint16_t, 6> closer_;  ///< first and second solid that close each face of shared slots, where there is a second
-    BlockArray<double, 3> ofSecond_;       ///< area that the second solid closes of each face of shared slots [-]
+    std::vector<std::uint8_t> shared_, even_;  ///< per slot
+    BlockArray<std::uint16_t, 6> closer_;      ///< first and second solid that close each face of shared slots, where there is a second
+    BlockArray<double, 3> ofSecond_;           ///< area that the second solid closes of each face of shared slots [-]
 };
 
 }  // namespace sim

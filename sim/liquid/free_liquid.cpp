@@ -211,15 +211,7 @@ UnheldFaces findUnheldFaces(const CutGrid& cut, FreeLiquid& work)
     work.unheld.resize(cut.grid.count());
     parallelFor(cut.grid.count(), kBlocksPerTask, [&](std::size_t n) {
         const int b = static_cast<int>(n);
-        std::fill_n(work.unheld.block(b), kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
-        if (!cut.field.nearSolid(b)) return;
-        for (int a = 0; a < kAxes; ++a)
-            for (int k = 0; k < kBlockEdge; ++k) {
-                std::uint64_t& word = work.unheld.block(b, a)[k];
-                word = 0;
-                for (int j = 0; j < kBlockEdge; ++j)
-                    word |= std::uint64_t{maskBits(loadPack(cut.field.open(b, a) + cellInBlock(0, j, k)) >= 1.0)} << (j * kBlockEdge);
-            }
+        for (int a = 0; a < kAxes; ++a) std::copy_n(cut.field.whole(b, a), BlockBits<3>::kWords, work.unheld.block(b, a));
     });
     return UnheldFaces(work);
 }

@@ -4,24 +4,25 @@
 #include "sim/core/simd.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace sim {
 
 void GainAtWalls::begin(const ObstacleField& field, const BlockArray<double, 3>& velocity)
 {
-    const std::vector<int>& blocks = field.blocksNearSolid();
-    before_.resize(static_cast<int>(blocks.size()));
-    parallelFor(blocks.size(), 4,
-                [&](std::size_t n) { std::copy_n(velocity.block(blocks[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n))); });
+    blocks_.clear();
+    std::ranges::copy_if(field.blocksNearSolid(), std::back_inserter(blocks_), [&](int b) { return !field.isEven(b); });
+    before_.resize(static_cast<int>(blocks_.size()));
+    parallelFor(blocks_.size(), 4,
+                [&](std::size_t n) { std::copy_n(velocity.block(blocks_[n]), BlockArray<double, 3>::kStride, before_.block(static_cast<int>(n))); });
 }
 
 void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& velocity) const
 {
-    const std::vector<int>& blocks = field.blocksNearSolid();
     // Along slanted walls that rest some faces gain what others lose; walls that move are bounded face by face.
-    const double gained = parallelSum(blocks.size(), [&](std::size_t n) {
-        const int b = blocks[n];
+    const double gained = parallelSum(blocks_.size(), [&](std::size_t n) {
+        const int b = blocks_[n];
         double sum = 0.0;
         for (int a = 0; a < kAxes; ++a) {
             const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a),
@@ -35,8 +36,8 @@ void GainAtWalls::bound(const ObstacleField& field, BlockArray<double, 3>& veloc
         return sum;
     });
     if (gained <= 0.0) return;
-    parallelFor(blocks.size(), 4, [&](std::size_t n) {
-        const int b = blocks[n];
+    parallelFor(blocks_.size(), 4, [&](std::size_t n) {
+        const int b = blocks_[n];
         for (int a = 0; a < kAxes; ++a) {
             const double *before = before_.block(static_cast<int>(n), a), *open = field.open(b, a), *room = field.room(b, a),
                          *wall = field.wallVelocity(b, a);

@@ -2,6 +2,8 @@
 
 #include "sim/grid/obstacle_field.h"
 
+#include <vector>
+
 namespace sim {
 
 /// Keeps the pressure from giving energy to faces that solids close more of than they take of their mass. The projection is orthogonal where a face
@@ -17,7 +19,8 @@ class GainAtWalls {
     void bound(const ObstacleField& field, BlockArray<double, 3>& velocity) const;
 
  private:
-    BlockArray<double, 3> before_;  ///< velocities of blocks near solids, in their order [cm/s]
+    std::vector<int> blocks_;       ///< those in which some face is less open than heavy, or the other way round
+    BlockArray<double, 3> before_;  ///< velocities of these blocks, in their order [cm/s]
 };
 
 }  // namespace sim

@@ -1,6 +1,7 @@
 #include "sim/liquid/push_out.h"
 
 #include "sim/core/parallel.h"
+#include "sim/core/simd.h"
 #include "sim/grid/seams.h"
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 namespace sim {
 
 namespace {
+
+using Places = std::array<AlignedArray<double>, kAxes>;  ///< coordinates of particles [cm]
 
 constexpr int kRepeats = 2;             ///< the second for edges, and for distances that are only bounds
 constexpr double kAcrossSeams = 2.0;    ///< as far a way out of solids that touch is looked for [cells]
@@ -116,8 +119,8 @@ PushOutTotals stop(const Vec3& wall, const Vec3& normal, std::size_t p, LiquidPa
     return {0.5 * mass * towards * (2.0 * velocity.dot(normal) - towards), -mass * towards * wall.dot(normal), Vec3::Zero()};
 }
 
-PushOutTotals keepOut(const Obstacles& obstacles, double dx, const std::array<AlignedArray<double>, kAxes>* before, std::size_t p,
-                      LiquidParticles& particles, std::span<Impulse> onSolids)
+PushOutTotals keepOut(const Obstacles& obstacles, double dx, const Places* before, std::size_t p, LiquidParticles& particles,
+                      std::span<Impulse> onSolids)
 {
     const Vec3 x = particles.position(p);
     Vec3 moved = x, normal = Vec3::Zero();
@@ -136,14 +139,39 @@ PushOutTotals keepOut(const Obstacles& obstacles, double dx, const std::array<Al
     return pushed;
 }
 
+/// Places of eight particles in a row.
+struct PlacePack {
+    Pack x[kAxes];
+
+    PlacePack(const Places& places, std::size_t first)
+    {
+        for (int a = 0; a < kAxes; ++a) x[a] = loadPack(places[a].data() + first);
+    }
+};
+
 /// What all vessels leave, but for what is as good as at their walls.
 struct InVessels {
     const Obstacles& obstacles;
     double margin;  ///< [cm]
 
-    bool holds(const std::array<AlignedArray<double>, kAxes>& x, std::size_t p) const
+    bool holds(const Vec3& x) const
     {
-        return std::ranges::all_of(obstacles.vessels(), [&](const Obstacles::Vessel& v) { return v.holds({x[0][p], x[1][p], x[2][p]}, margin); });
+        return std::ranges::all_of(obstacles.vessels(), [&](const Obstacles::Vessel& v) { return v.holds(x, margin); });
+    }
+    PackMask holds(const PlacePack& at) const
+    {
+        PackMask held = ~PackMask{};
+        for (const Obstacles::Vessel& vessel : obstacles.vessels()) {
+            Pack furthest = broadcast(-1.0e300), squares = broadcast(0.0);
+            for (int a = 0; a < kAxes; ++a) {
+                const Pack beyond = absPack(at.x[a] - vessel.center[a]) - vessel.half[a], out = maxPack(beyond, broadcast(0.0));
+                furthest = maxPack(furthest, beyond);
+                squares += out * out;
+            }
+            const double within = vessel.round - margin;
+            held &= within > 0.0 ? squares < within * within : furthest < within;
+        }
+        return held;
     }
 };
 
@@ -152,11 +180,37 @@ struct ClearBall {
     Vec3 center;
     double radius;  ///< [cm]
 
-    bool holds(const std::array<AlignedArray<double>, kAxes>& x, std::size_t p) const
+    bool holds(const Vec3& x) const { return radius > 0.0 && (x - center).squaredNorm() < radius * radius; }
+    PackMask holds(const PlacePack& at) const
     {
-        return radius > 0.0 && (Vec3(x[0][p], x[1][p], x[2][p]) - center).squaredNorm() < radius * radius;
+        Pack squares = broadcast(0.0);
+        for (int a = 0; a < kAxes; ++a) squares += (at.x[a] - center[a]) * (at.x[a] - center[a]);
+        return (squares < radius * radius) & (broadcast(radius) > 0.0);
     }
 };
+
+/// Call f(p) for those of the particles first … end − 1 that are, or were, not in what is clear of solids. Ways are straight: they are in it if both
+/// ends are.
+/// @param before  where they were; null if they have no way behind them
+template <class Clear, class F>
+void forEachNotIn(const Clear& clear, const Places& now, const Places* before, int first, int end, F&& f)
+{
+    for (int p = first; p < end; p += kLanes) {
+        const int count = std::min(kLanes, end - p);
+        unsigned clearOnes = 0;
+        if (static_cast<std::size_t>(p) + kLanes <= std::min(now[0].size(), before != nullptr ? before->front().size() : now[0].size())) {
+            PackMask held = clear.holds(PlacePack(now, p));
+            if (before != nullptr) held &= clear.holds(PlacePack(*before, p));
+            clearOnes = maskBits(held);
+        } else
+            for (int l = 0; l < count; ++l) {
+                const auto placeIn = [&](const Places& x) { return Vec3(x[0][p + l], x[1][p + l], x[2][p + l]); };
+                const bool isClear = clear.holds(placeIn(now)) && (before == nullptr || clear.holds(placeIn(*before)));
+                clearOnes |= static_cast<unsigned>(isClear) << l;
+            }
+        for (unsigned left = ~clearOnes & ((1u << count) - 1); left != 0; left &= left - 1) f(static_cast<std::size_t>(p + std::countr_zero(left)));
+    }
+}
 
 /// The largest ball around the middle of a cell, or of one beside it where solids rest, that no solid reaches. That of a cell in front of a wall leaves
 /// of the cell at the wall a film only.
@@ -181,8 +235,8 @@ ClearBall clearAround(const CutGrid& cut, int block, const Vec3i& cell, double s
 
 }  // namespace
 
-PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest,
-                                 const std::array<AlignedArray<double>, kAxes>* before, LiquidParticles& particles, ChunkSums<Impulse>& onSolids)
+PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut, double farthest, const Places* before, LiquidParticles& particles,
+                                 ChunkSums<Impulse>& onSolids)
 {
     constexpr double kAtWall = 1.0e-6;  // [cells]
     const InVessels inVessels{cut.obstacles, kAtWall * cut.grid.dx};
@@ -199,10 +253,9 @@ PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut,
             const Vec3i cell(c & 7, c >> 3 & 7, c >> 6);
             const int* start = order.cells(b) + cellRank(cell.x(), cell.y(), cell.z());
             if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
-            const auto keepOutOthers = [&](const auto& clear) {  // ways are straight: in what is clear if both ends are
-                for (int p = start[0]; p < start[1]; ++p)
-                    if (!clear.holds(particles.x, p) || (before != nullptr && !clear.holds(*before, p)))
-                        pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses);
+            const auto keepOutOthers = [&](const auto& clear) {
+                forEachNotIn(clear, particles.x, before, start[0], start[1],
+                             [&](std::size_t p) { pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses); });
             };
             if (onlyVessels) keepOutOthers(inVessels);
             else keepOutOthers(clearAround(cut, b, cell, sweep));

@@ -42,10 +42,15 @@ bool SlantedWalls::findWay(const CutGrid& cut, int block, Passing& passing)
     return std::abs(normal[way]) < kAlongGrid && std::abs(normal[way]) > kLeastRatio * std::abs(normal[axis]);
 }
 
+void SlantedWalls::begin(const ColoredBlocks& near)
+{
+    if (passing_.size() < near.blocks.size()) passing_.resize(near.blocks.size());
+    for (std::vector<Passing>& passing : passing_) passing.clear();
+}
+
 /// The faces near walls of which not the same is open as P2G brings them.
 void SlantedWalls::find(const CutGrid& cut, const ColoredBlocks& near, const BlockBits<3>& known)
 {
-    if (passing_.size() < near.blocks.size()) passing_.resize(near.blocks.size());
     parallelFor(near.blocks.size(), [&](std::size_t n) {
         const int b = near.blocks[n];
         passing_[n].clear();

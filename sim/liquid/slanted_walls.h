@@ -17,6 +17,8 @@ namespace sim {
 /// of it, as in WallFaces.
 class SlantedWalls {
  public:
+    /// Nothing is passed until the next pass().
+    void begin(const ColoredBlocks& near);
     /// Pass on mass, momentum, room and weightless mass [g] of the faces `known`, which are open and have mass. Rooms are those that are folded.
     void pass(const CutGrid& cut, const ColoredBlocks& near, const BlockBits<3>& known, ObstacleField& field, FaceFields& faces,
               BlockArray<double, 3>& weightless);
@@ -24,7 +26,8 @@ class SlantedWalls {
     void read(const BlockGrid& grid, const ColoredBlocks& near, BlockArray<double, 3>& velocity) const;
 
  private:
-    static constexpr int kSweeps = 4;  ///< faces of every second layer in turn: what comes from three cells behind gets to the last open part
+    static constexpr int kSweeps =
+        4;  ///< faces of one colour of a chequerboard in turn: what comes from three cells behind gets to the last open part
     /// A face, and for the two sweeps that it takes part in the direction of the neighbour that it passes to, and its share s.
     struct Passing {
         std::uint16_t face;
@@ -33,7 +36,7 @@ class SlantedWalls {
         std::array<std::int8_t, kSweeps / 2> toward;
         std::array<double, kSweeps / 2> share;
 
-        int parity() const { return (face >> 3 * way) & 1; }
+        int parity() const { return (face ^ face >> 3 ^ face >> 6) & 1; }
         CellRef beside(const BlockGrid& grid, int block, int step) const;
     };
     static bool findWay(const CutGrid& cut, int block, Passing& passing);

@@ -110,6 +110,7 @@ void WallFaces::find(const CutGrid& cut, double friction, const FaceFields& face
 {
     near_.set(cut.grid, cut.field.blocksNearSolid());
     if (followers_.size() < near_.blocks.size()) followers_.resize(near_.blocks.size());
+    slanted_.begin(near_);
     mirrored.resize(cut.grid.count());
     if (near_.blocks.empty()) {
         count_ = 0;

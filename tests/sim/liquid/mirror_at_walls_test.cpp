@@ -194,11 +194,13 @@ void expectSameWorkOfWeight(GridScene& scene, const Vec3& gravity, std::mt19937&
         scene.velocity(a, c) = 10.0 * unit(random);
         if (mass(faces.sums, a, c) > 0.0 && scene.open(a, c) > 0.0) scene.setValid(a, c);
     });
+    const BlockArray<double, 3> own = faces.velocity;  // particles read others, also on open faces at slanted walls
     applyWalls(scene.cut(), kFriction, false, followers, faces.valid, faces.velocity);
     double onFaces = 0.0, onParticles = 0.0, scale = 0.0;
     scene.forEachFace([&](int a, const Vec3i& c) {
         const double u = scene.velocity(a, c), particles = mass(given, a, c) * gravity[a] * u;
-        onFaces += mass(faces.sums, a, c) * fallen.block(scene.at(c).block, a)[scene.at(c).cell] / kStep * u;
+        const double ofFace = scene.open(a, c) > 0.0 ? own.block(scene.at(c).block, a)[scene.at(c).cell] : u;
+        onFaces += mass(faces.sums, a, c) * fallen.block(scene.at(c).block, a)[scene.at(c).cell] / kStep * ofFace;
         onParticles += particles;
         scale += std::abs(particles);
     });
