@@ -249,16 +249,15 @@ PushOutTotals pushOutOfObstacles(const ParticleOrder& order, const CutGrid& cut,
         const double reach = farthest + sweep, safe = 0.5 * std::sqrt(3.0) * cut.grid.dx + reach;
         if (!cut.field.nearSolid(b) && reach < ObstacleField::kExactDistance * cut.grid.dx) return pushed;
         const bool onlyVessels = !cut.obstacles.reach(cut.grid.lowerCorner(b) + Vec3::Constant(half), half, reach, Obstacles::Which::NotVessels);
-        for (int c = 0; c < kBlockCells; ++c) {
-            const Vec3i cell(c & 7, c >> 3 & 7, c >> 6);
-            const int* start = order.cells(b) + cellRank(cell.x(), cell.y(), cell.z());
-            if (start[0] == start[1] || (cut.field.nearSolid(b) && cut.field.centerDistance(b)[c] > safe)) continue;
-            const auto keepOutOthers = [&](const auto& clear) {
-                forEachNotIn(clear, particles.x, before, start[0], start[1],
-                             [&](std::size_t p) { pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses); });
-            };
-            if (onlyVessels) keepOutOthers(inVessels);
-            else keepOutOthers(clearAround(cut, b, cell, sweep));
+        for (int rank = 0; rank < kBlockCells; ++rank) {  // in the order of the particles in memory
+            const Vec3i cell(rank >> 6, rank >> 3 & 7, rank & 7);
+            const int* start = order.cells(b) + rank;
+            if (start[0] == start[1]) continue;
+            if (cut.field.nearSolid(b) && cut.field.centerDistance(b)[cellInBlock(cell.x(), cell.y(), cell.z())] > safe) continue;
+            const auto keepOutOne = [&](std::size_t p) { pushed = pushed + keepOut(cut.obstacles, cut.grid.dx, before, p, particles, impulses); };
+            // Vessels are convex and rest: who is in one now was in it all the way, or began in its wall.
+            if (onlyVessels) forEachNotIn(inVessels, particles.x, nullptr, start[0], start[1], keepOutOne);
+            else forEachNotIn(clearAround(cut, b, cell, sweep), particles.x, before, start[0], start[1], keepOutOne);
         }
         return pushed;
     };
