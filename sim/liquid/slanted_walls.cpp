@@ -26,10 +26,20 @@ CellRef SlantedWalls::Passing::beside(const BlockGrid& grid, int block, int step
     return cellNear(grid, block, at.x(), at.y(), at.z());
 }
 
+/// Does the wall at the lower faces of a cell move?
+bool SlantedWalls::isMoved(const ObstacleField& field, int block, int cell)
+{
+    for (int a = 0; a < kAxes; ++a)
+        if (field.wallVelocity(block, a)[cell] != 0.0) return true;
+    return false;
+}
+
 /// The way on which a face passes mass: within its plane, for so both sums are the same, and along the axis that the wall's normal is nearest to
-/// there. There is none where the wall is along the grid, so that what is behind it is even, or nearly normal to the face.
+/// there. There is none where the wall is along the grid, so that what is behind it is even, or nearly normal to the face; and none at walls that
+/// move, where turning ones gave a few particles 1 % more energy than their work.
 bool SlantedWalls::findWay(const CutGrid& cut, int block, Passing& passing)
 {
+    if (isMoved(cut.field, block, passing.face)) return false;
     const double dx = cut.grid.dx;
     const int face = passing.face, axis = passing.axis, next = (axis + 1) % kAxes, last = (axis + 2) % kAxes;
     Vec3 x = cut.grid.lowerCorner(block) + dx * Vec3((face & 7) + 0.5, (face >> 3 & 7) + 0.5, (face >> 6) + 0.5);

@@ -39,6 +39,7 @@ class SlantedWalls {
         int parity() const { return (face ^ face >> 3 ^ face >> 6) & 1; }
         CellRef beside(const BlockGrid& grid, int block, int step) const;
     };
+    static bool isMoved(const ObstacleField& field, int block, int cell);
     static bool findWay(const CutGrid& cut, int block, Passing& passing);
     double choose(const CutGrid& cut, int block, const BlockBits<3>& known, Passing& passing, int turn) const;
     void find(const CutGrid& cut, const ColoredBlocks& near, const BlockBits<3>& known);
