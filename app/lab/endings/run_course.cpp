@@ -47,7 +47,7 @@ Contents contentsOf(const std::filesystem::path& folder, double liquidMass)
 /// Speed [cm/s] of motion that is none: in all of the run it would not take anything as far as so many cells, which round-off does.
 double negligibleSpeed(double cell, double time)
 {
-    constexpr double kUnfelt = 1.0e-8;  // cells; what round-off of places stores in stiff threads is as much as motion by 1e-10
+    constexpr double kUnfelt = 1.0e-7;  // cells; what solves to their tolerance leave in stiff cloth at rest is as much as motion by 2e-9
     return time > 0.0 ? kUnfelt * cell / time : 0.0;
 }
 

@@ -65,8 +65,8 @@ TEST(StabilityMap, MotionThatIsNoneGainsNothing)
         test::writeFile(logs.folder / "energy_ledger.csv", "time_s,total_erg,kinetic_erg\n0,1e-27,0\n1e-3,5e-27,1e-33\n");
         return logs.judged().isStable;
     };
-    EXPECT_TRUE(judge(0.1));    // 1e-12 erg would be 1e-8 cells
-    EXPECT_FALSE(judge(1e-9));  // 1e-28
+    EXPECT_TRUE(judge(0.1));    // 1e-10 erg would be 1e-7 cells
+    EXPECT_FALSE(judge(1e-9));  // 1e-26
 }
 
 /// A solid presses on fabric that pins hold: all of its work is stored, and booked to the last digit.
@@ -84,6 +84,21 @@ TEST(StabilityMap, DigitsOfTheLogAreNoGain)
     EXPECT_FALSE(judge("0.0611373787"));
     test::writeFile(logs.folder / "energy_ledger.csv", "time_s,total_erg,kinetic_erg,implicit_erg,residual_erg\n0,1,0,0,0\n1e-3,2,8,-1e13,1e13\n");
     EXPECT_FALSE(logs.judged().isStable) << "digits of what is not summed do not count";
+}
+
+/// Nor is what solves to their tolerance leave in stiff cloth that nothing moves (a random scene of .0233 g).
+TEST(StabilityMap, WhatSolvesLeaveInClothAtRestIsNoGain)
+{
+    Logs logs;
+    logs.steps(1.0e-3, 0.0);
+    test::writeFile(logs.folder / "report.json", R"({"cell":0.2218,"fabric":{"mass":0.0233}})");
+    const auto judge = [&](double stored) {
+        test::writeFile(logs.folder / "steps.jsonl", "{\"dt\":0.1055,\"max_speed\":0.0,\"ledger\":{\"liquid_mass\":0.0}}\n");
+        test::writeFile(logs.folder / "energy_ledger.csv", fmt::format("time_s,total_erg,kinetic_erg\n0,4e-25,0\n0.1055,{},8e-24\n", stored));
+        return logs.judged().isStable;
+    };
+    EXPECT_TRUE(judge(1.2e-19));
+    EXPECT_FALSE(judge(1.2e-16));
 }
 
 /// What rests is held anew in each step: 2 g under 1e3 cm/s^2 would get 1 erg in a step of 1e-3 s.
