@@ -144,7 +144,7 @@ void ObstacleField::computeSlot(const BlockGrid& grid, int block, int slot, cons
 
 bool ObstacleField::isSlotEven(int slot) const
 {
-    constexpr double kRounding = 1.0e-12;
+    constexpr double kRounding = 1.0e-12;  // of parts of a face [-]
     const double *open = open_.block(slot), *room = room_.block(slot);
     for (std::size_t n = 0; n < BlockArray<double, 3>::kStride; ++n)
         if (open[n] > 0.0 && std::abs(open[n] - room[n]) > kRounding) return false;

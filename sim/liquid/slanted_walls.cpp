@@ -48,7 +48,7 @@ bool SlantedWalls::findWay(const CutGrid& cut, int block, Passing& passing)
     const int way = std::abs(normal[last]) > std::abs(normal[next]) ? last : next;
     passing.way = static_cast<std::uint8_t>(way);
     passing.outward = normal[way] > 0.0 ? 1 : -1;
-    constexpr double kAlongGrid = 1.0 - 1.0e-6;
+    constexpr double kAlongGrid = 1.0 - 1.0e-6;  // cosine [-]
     return std::abs(normal[way]) < kAlongGrid && std::abs(normal[way]) > kLeastRatio * std::abs(normal[axis]);
 }
 
@@ -63,7 +63,6 @@ void SlantedWalls::find(const CutGrid& cut, const ColoredBlocks& near, const Blo
 {
     parallelFor(near.blocks.size(), [&](std::size_t n) {
         const int b = near.blocks[n];
-        passing_[n].clear();
         for (int a = 0; a < kAxes; ++a)
             for (int row = 0; row < kBlockCells; row += kLanes) {
                 const Pack excess = absPack(loadPack(cut.field.room(b, a) + row) - loadPack(cut.field.open(b, a) + row));

@@ -19,15 +19,16 @@ class SlantedWalls {
  public:
     /// Nothing is passed until the next pass().
     void begin(const ColoredBlocks& near);
-    /// Pass on mass, momentum, room and weightless mass [g] of the faces `known`, which are open and have mass. Rooms are those that are folded.
+    /// After begin(): pass on mass, momentum, room and weightless mass [g] of the faces `known`, which are open and have mass. Rooms are those that
+    /// are folded.
     void pass(const CutGrid& cut, const ColoredBlocks& near, const BlockBits<3>& known, ObstacleField& field, FaceFields& faces,
               BlockArray<double, 3>& weightless);
     /// Give the faces the velocities that particles read [cm/s].
     void read(const BlockGrid& grid, const ColoredBlocks& near, BlockArray<double, 3>& velocity) const;
 
  private:
-    static constexpr int kSweeps =
-        4;  ///< faces of one colour of a chequerboard in turn: what comes from three cells behind gets to the last open part
+    /// Faces of one colour of a chequerboard take turns; so often, what comes from three cells behind gets to the last open part.
+    static constexpr int kSweeps = 4;
     /// A face, and for the two sweeps that it takes part in the direction of the neighbour that it passes to, and its share s.
     struct Passing {
         std::uint16_t face;
