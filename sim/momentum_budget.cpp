@@ -187,12 +187,12 @@ void MomentumBudget::liquidOnFaces(const FaceFields& faces, int blocks)
             return sumLanes(sum);
         });
     forces_.balance.change += liquid_ - momentum;
-    liquid_ = momentum;
+    liquid_ = onFaces_ = momentum;
 }
 
-void MomentumBudget::liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed)
+Vec3 MomentumBudget::liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed)
 {
-    if (!isOpen()) return;
+    if (!isOpen()) return Vec3::Zero();
     forces_.balance.weight += weight;
     liquid_ += weight;
     LiquidOnSolids::OnSolid most;
@@ -216,6 +216,7 @@ void MomentumBudget::liquidMoved(const Vec3& now, const Vec3& weight, const Liqu
         forces_.obstacles[n].liquid += stopped;
         liquid_ -= stopped.linear;
     }
+    return now - onFaces_ - weight;
 }
 
 void MomentumBudget::finish()

@@ -40,7 +40,8 @@ class MomentumBudget {
     /// Particles have their velocities from the faces, and were kept out of solids.
     /// @param now     momentum that they had before they were kept out [g cm/s]
     /// @param weight  what weight gave to the faces [g cm/s]
-    void liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed);
+    /// @return  what but weight the liquid got on the faces [g cm/s]; 0 where nothing is measured
+    Vec3 liquidMoved(const Vec3& now, const Vec3& weight, const LiquidOnSolids& onSolids, const ChunkSums<Impulse>& pushed);
     /// Unexplained momentum assigned to a solid, and its point of application.
     struct ImposedMomentum {
         Vec3 bySolid = Vec3::Zero(), place = Vec3::Zero();  ///< [g cm/s], [cm]
@@ -69,6 +70,7 @@ class MomentumBudget {
     Forces forces_;
     Vec3 liquid_ = Vec3::Zero();            ///< momentum that the liquid should have by what has been booked; until it is on the faces the
                                             ///< change of it since the start of the step [g cm/s]
+    Vec3 onFaces_ = Vec3::Zero();           ///< momentum that particles brought to the faces [g cm/s]
     ImposedMomentum imposedMomentum_;       ///< what no force explains of the liquid's in the last step
     Vec3 leftSoFar_ = Vec3::Zero();         ///< Ledger::leftMomentum at the start of the step [g cm/s]
     std::vector<Piece> pieces_;             ///< fabrics as they were when they were last looked at

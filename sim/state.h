@@ -26,6 +26,7 @@ struct SourceMemory {
 /// What steps that were taken tell those to come: how long they may be, and what is to be expected of them.
 struct StepHistory {
     double maxSpeed = 0.0;                                     ///< largest speed of the liquid, as the last step found it [cm/s]
+    Vec3 sinceMidstep = Vec3::Zero();                          ///< what the liquid's mean velocity is beyond that of its particles [cm/s]
     double longest = std::numeric_limits<double>::infinity();  ///< largest step allowed after a rejected one [s]
     /// Energies of motion and elasticity at the ends of the last steps [erg]: what contact took in them it may give back.
     std::array<double, 8> energies{};

@@ -102,6 +102,7 @@ template <class V, class Memory>
 void visitMemory(V& v, Memory& memory)
 {
     v.number("memory/fastest", "cm/s", memory.maxSpeed);
+    v.rows("memory/since_midstep", "cm/s", 1, kAxes, [&](std::size_t) { return memory.sinceMidstep.data(); });
     v.number("memory/longest_step", "s", memory.longest);
     v.rows("memory/energies", "erg", 1, memory.energies.size(), [&](std::size_t) { return memory.energies.data(); });
     v.number("memory/next_energy", "-", memory.next);

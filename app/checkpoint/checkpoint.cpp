@@ -22,7 +22,7 @@ namespace {
 //   xxh3 0123456789abcdef
 constexpr std::size_t kHeaderBytes = 512;
 constexpr std::string_view kMagic = "Drench checkpoint ";
-constexpr int kVersion = 14;
+constexpr int kVersion = 15;
 
 std::string checksum(std::string_view content) { return hexDigits(XXH3_64bits(content.data(), content.size())); }
 

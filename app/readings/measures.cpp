@@ -140,7 +140,8 @@ void Measures::addLiquid(Names& names)
 double Measures::momentum(int axis) const
 {
     double sum = 0.0;
-    for (std::size_t p = 0; p < liquid().count; ++p) sum += liquid().mass[p] * liquid().velocity(p)[axis];
+    const double sinceMidstep = simulation_->state().memory.sinceMidstep[axis];
+    for (std::size_t p = 0; p < liquid().count; ++p) sum += liquid().mass[p] * (liquid().velocity(p)[axis] + sinceMidstep);
     const sim::FabricState& fabric = simulation_->state().fabric;
     for (std::size_t v = 0; v < fabric.v.size(); ++v) sum += (simulation_->fabric().mass[v] + fabric.absorbed[v]) * fabric.v[v][axis];
     return sum;
@@ -151,8 +152,10 @@ void Measures::addLiquidAlong(int a, Names& names)
     names.push_back({along("momentum_", a), 0, [this, a](Arguments) { return momentum(a); }});
     names.push_back(
         {along("liquid_", a), 0, [this, a](Arguments) { return meanOf(liquid(), [this, a](std::size_t p) { return liquid().x[a][p]; }); }});
-    names.push_back(
-        {along("liquid_v", a), 0, [this, a](Arguments) { return meanOf(liquid(), [this, a](std::size_t p) { return liquid().velocity(p)[a]; }); }});
+    names.push_back({along("liquid_v", a), 0, [this, a](Arguments) {
+                         const double ofParticles = meanOf(liquid(), [this, a](std::size_t p) { return liquid().velocity(p)[a]; });
+                         return ofParticles + simulation_->state().memory.sinceMidstep[a];
+                     }});
     names.push_back({along("spin_", a), 0, [this, a](Arguments) { return spin(liquid(), simulation_->state().grid.dx)[a]; }});
     names.push_back({along("wave_", a), 1,
                      [this, a](Arguments k) { return meanOf(liquid(), [this, a, k](std::size_t p) { return std::cos(k[0] * liquid().x[a][p]); }); }});

@@ -55,7 +55,7 @@ struct IntervalTotals {
 };
 
 /// What a formula of a validation or a probe can read of a simulation as it is, in cgs. With a for x, y, z:
-///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va, spin_a (angular
+///  * liquid: liquid_mass, left_mass (that left the domain), liquid_a (centre of mass), liquid_va (its velocity), spin_a (angular
 ///    momentum about it), speed (largest), rms_speed, kinetic, potential, energy and momentum_a (of everything), wave_a(k) (mean of
 ///    cos k a), mass_a(from, to) (of liquid between two planes);
 ///  * heights: surface_x(y, z), surface_y(x, z) and surface_z(x, y) (where the liquid ends on the line through a point, upwards along the axis

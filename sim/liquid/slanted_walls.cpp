@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastExcess = 1.0e-4;
 
 /// Least part of the normal along the way on which a face passes mass, relative to that across the face: with less the way is too long [-].
-constexpr double kLeastRatio = 0.2;
+constexpr double kLeastRatio = 0.1;
 
 }  // namespace
 

@@ -90,6 +90,17 @@ void bookOpenings(StepContext& c, double perPressure)
     work.momentum.pushedIn(work.openings.impulse(c.cut(), outcome, told ? &*told : nullptr));
 }
 
+/// What the mean velocity of the liquid at the end of the step is beyond that of its particles, which with the integrator reflected is of halfway
+/// through the step [cm/s]: half a step of weight, and of what acted against it. Of that it is at most as much as of weight, since
+/// what stops liquid that hits something is over within a step. Between two steps of which the first reflects it is not known, and 0.
+/// @param push  acceleration of the liquid by all but weight in the step [cm/s^2]
+Vec3 changeSinceMidstep(const StepContext& c, const Vec3& push)
+{
+    if (!c.settings().time.reflects() || c.plan.reflects) return Vec3::Zero();
+    const double weight = c.settings().gravity.norm(), size = push.norm();
+    return 0.5 * c.dt * (c.settings().gravity + (size > weight ? weight / size : 1.0) * push);
+}
+
 }  // namespace
 
 void findHeld(StepContext& c)
@@ -168,7 +179,9 @@ void gridToParticles(StepContext& c)
     c.report.blocks = grid.count();
     c.report.liquidCells = countLiquidCells(grid, *c.plan.surfaceCells);
     if (!std::isfinite(held) || !std::isfinite(c.report.energies.total())) c.report.failure = "velocities are not finite";
-    work.momentum.liquidMoved(sums.momentum, weights.mass * c.fallTime() * c.settings().gravity, work.onSolids, work.pushedSolids);
+    const Vec3 weight = weights.mass * c.fallTime() * c.settings().gravity;
+    const Vec3 butWeight = work.momentum.liquidMoved(sums.momentum, weight, work.onSolids, work.pushedSolids);
+    c.state.memory.sinceMidstep = weights.mass > 0.0 ? changeSinceMidstep(c, butWeight / (weights.mass * c.dt)) : Vec3::Zero();
     c.energy.bookSolidsWork();
     c.energy.toParticles(c.dt, pushed);
 }
