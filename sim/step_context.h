@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/energy_budget.h"
+#include "sim/liquid/walls.h"
 #include "sim/scene/scene.h"
 #include "sim/state.h"
 #include "sim/step_report.h"
@@ -50,6 +51,8 @@ struct StepContext {
     const Settings& settings() const { return scene.settings; }
     CutGrid cut() const { return {state.grid, work.obstacleField, work.obstacles}; }
     bool hasObstacles() const { return !work.obstacles.empty(); }
+    /// Do plane walls mirror the liquid?
+    bool mirrorsAtWalls() const { return hasObstacles() && usesMirrorBoundary(settings().liquid.wallFriction); }
     bool isFlip() const { return settings().transfer.method == TransferMethod::Flip; }
     bool isViscous() const { return plan.isWet && settings().liquid.solveViscosity && settings().liquid.viscosity > 0.0; }
     /// May what holds liquid move?

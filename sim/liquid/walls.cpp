@@ -199,4 +199,33 @@ void withholdWeightOfImages(const ObstacleField& field, const Vec3& gravity, dou
     });
 }
 
+void levelWeightOfImages(const CutGrid& cut, const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid)
+{
+    constexpr double kHeldOfEven = 1.0 / 24.0;  // twice the part of a quadratic B-spline that is beyond a wall one cell away [-]
+    const auto isDeep = [&](int b, int axis, int face) {
+        Vec3i lower(face & 7, face >> 3 & 7, face >> 6);
+        lower[axis] -= 1;
+        const CellRef below = cellNear(cut.grid, b, lower.x(), lower.y(), lower.z());
+        return liquid.deep.test(b, face) && liquid.deep.test(below.block, below.cell) && (bare == nullptr || bare->test(b, face, axis));
+    };
+    const std::vector<int>& blocks = cut.field.blocksNearSolid();
+    parallelFor(blocks.size(), 2, [&](std::size_t n) {
+        const int b = blocks[n];
+        for (int a = 0; a < kAxes; ++a) {
+            if (gravityStep[a] == 0.0) continue;
+            const double *held = liquid.weightless.block(b, a), *mass = liquid.faces.sums.block(b, FaceFields::kMass + a);
+            for (int c = 0; c < kBlockCells; ++c)
+                if (held[c] != 0.0 && mass[c] > 0.0 && isDeep(b, a, c)) liquid.faces.velocity.block(b, a)[c] += gravityStep[a] * held[c] / mass[c];
+        }
+    });
+    forEachPlaneWall(cut.grid, cut.obstacles, [&](const Obstacles::Wall& wall, int plane, auto&& forBlocksAtWall) {
+        if (gravityStep[wall.axis] == 0.0) return;
+        forBlocksAtWall([&](int b) {
+            forEachImage(cut.grid, b, wall, plane, false, [&](int c, int layer, int face, CellRef) {
+                if (c == wall.axis && layer == 1 && isDeep(b, c, face)) liquid.faces.velocity.block(b, c)[face] -= gravityStep[c] * kHeldOfEven;
+            });
+        });
+    });
+}
+
 }  // namespace sim

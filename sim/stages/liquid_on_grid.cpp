@@ -8,13 +8,6 @@
 
 namespace sim {
 
-namespace {
-
-/// Do walls act on the liquid by its image behind them?
-bool hasImages(const StepContext& c) { return c.hasObstacles() && usesMirrorBoundary(c.settings().liquid.wallFriction); }
-
-}  // namespace
-
 void particlesToGrid(StepContext& c)
 {
     if (!c.plan.isWet) return;
@@ -29,7 +22,7 @@ void particlesToGrid(StepContext& c)
     } else particlesToFaces(sorted, work.scatter, work.grid.faces);
     work.momentum.liquidOnFaces(work.grid.faces, grid.count());
     if (c.hasObstacles()) work.onSolids.begin(c.cut(), work.grid.faces);
-    if (hasImages(c)) mirrorAtWalls(grid, work.obstacles, c.settings().liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
+    if (c.mirrorsAtWalls()) mirrorAtWalls(grid, work.obstacles, c.settings().liquid.wallFriction, work.obstacleField, work.wallFaces, work.grid);
     c.energy.toGrid();
 }
 
@@ -40,7 +33,7 @@ void applyGravity(StepContext& c)
     const BlockGrid& grid = c.state.grid;
     const Vec3& gravity = c.settings().gravity;
     computeFaceVelocities(grid, gravity, c.fallTime(), c.keepsAdvected(), c.work.grid);
-    if (hasImages(c)) withholdWeightOfImages(c.work.obstacleField, gravity, c.fallTime(), c.work.grid);
+    if (c.mirrorsAtWalls()) withholdWeightOfImages(c.work.obstacleField, gravity, c.fallTime(), c.work.grid);
     c.work.grid.unpressed = c.work.grid.faces.velocity;
     c.work.openings.weigh(c.work.grid, c.fallTime() * gravity);
     c.work.openings.followMean(c.work.grid, gravity.norm(), c.dt, c.state.memory.openings);

@@ -118,7 +118,9 @@ void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnS
         std::fill_n(work.free.bare.block(0), static_cast<std::size_t>(grid.count()) * kAxes * BlockBits<3>::kWords, ~std::uint64_t{0});
         work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.bare);
     }
-    levelWeight(c.cut(), bodies, c.fallTime() * c.settings().gravity, work.grid, onSolids, work.beyond);
+    const Vec3 gravityStep = c.fallTime() * c.settings().gravity;
+    if (c.mirrorsAtWalls()) levelWeightOfImages(c.cut(), work.free.hasFabric ? &work.free.bare : nullptr, gravityStep, work.grid);
+    levelWeight(c.cut(), bodies, gravityStep, work.grid, onSolids, work.beyond);
 }
 
 }  // namespace
