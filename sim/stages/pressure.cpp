@@ -103,7 +103,7 @@ bool weighFreeLiquid(StepContext& c, const PressureComponents& system, PressureF
 }
 
 /// Is there weight that solids may hold?
-bool hasHeldWeight(const StepContext& c) { return c.hasObstacles() && !c.settings().liquid.full && !c.settings().gravity.isZero(0.0); }
+bool hasHeldWeight(const StepContext& c) { return c.hasObstacles() && !c.settings().gravity.isZero(0.0); }
 
 /// Take the noise out of the weight of liquid that solids hold. Fabric that goes through it keeps what is on its faces.
 /// @param onSolids  is told, if not null
@@ -111,7 +111,6 @@ void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnS
 {
     const BlockGrid& grid = c.state.grid;
     Workspace& work = c.work;
-    const HeldBodies bodies = findHeldBodies(grid, system, findUnheld(c));
     work.free.hasFabric = c.plan.isMixed();
     if (work.free.hasFabric) {
         work.free.bare.resize(grid.count());
@@ -120,7 +119,8 @@ void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnS
     }
     const Vec3 gravityStep = c.fallTime() * c.settings().gravity;
     if (c.mirrorsAtWalls()) levelWeightOfImages(c.cut(), work.free.hasFabric ? &work.free.bare : nullptr, gravityStep, work.grid);
-    levelWeight(c.cut(), bodies, gravityStep, work.grid, onSolids, work.beyond);
+    if (c.settings().liquid.full) return;  // there is no surface
+    levelWeight(c.cut(), findHeldBodies(grid, system, findUnheld(c)), gravityStep, work.grid, onSolids, work.beyond);
 }
 
 }  // namespace

@@ -29,11 +29,13 @@ struct Found {
     double gained = 0.0;  ///< energy above that at the start, relative to the potential energy above the floor [-]
 };
 
-Found afterTwoSeconds(const Solid& solid, const Transfer& transfer, double cell, double depth)
+/// @param isFull  liquid fills the tank up to a lid
+Found afterTwoSeconds(const Solid& solid, const Transfer& transfer, double cell, double depth, bool isFull = false)
 {
-    Scene scene = tankScene(transfer, cell, Vec3(6.0, 8.0, 4.0) / cell, Vec3::Zero(), Vec3(6.0, depth, 4.0) / cell);
+    Scene scene = tankScene(transfer, cell, Vec3(6.0, isFull ? depth : 8.0, 4.0) / cell, Vec3::Zero(), Vec3(6.0, depth, 4.0) / cell);
     scene.settings.time.mode = TimeMode::Fixed;
     scene.settings.time.dt = 2.0e-3;
+    scene.settings.liquid.full = isFull;
     scene.obstacles.push_back(obstacle(solid.name, solid.shape));
     Simulation simulation(scene);
     const double start = simulation.energies().total(), mass = simulation.state().ledger.emittedMass;
@@ -52,6 +54,16 @@ TEST(Rest, OfAPoolOverSolidsLasts)
             EXPECT_LT(found.speed, 0.05) << solid.name << ", " << transfer.name;
             EXPECT_LT(found.gained, 1.0e-3) << solid.name << ", " << transfer.name;  // particles settle round corners within cells: 5.6e-4
         }
+}
+
+/// So does liquid that fills a box without air.
+TEST(Rest, OfAFullBoxWithSolidsLasts)
+{
+    for (const Solid& solid : solids()) {
+        const Found found = afterTwoSeconds(solid, kPoly27, 0.5, 4.0, true);
+        std::printf("%-22s full: %.1e cm/s\n", solid.name.c_str(), found.speed);
+        EXPECT_LT(found.speed, 1.0e-3) << solid.name;
+    }
 }
 
 /// Nor do modes grow in a pool alone, which they did by e in 1.2 s next to its floor.
