@@ -118,7 +118,8 @@ void levelHeldWeight(StepContext& c, const PressureComponents& system, LiquidOnS
         work.coupling->mixture.clearShared(*c.plan.sharedFaces, work.free.bare);
     }
     const Vec3 gravityStep = c.fallTime() * c.settings().gravity;
-    if (c.mirrorsAtWalls()) levelWeightOfImages(c.cut(), work.free.hasFabric ? &work.free.bare : nullptr, gravityStep, work.grid);
+    const bool weighsImages = c.mirrorsAtWalls() && work.openings.empty();  // pressure beyond outlets goes by what images hold in their planes
+    if (weighsImages) levelWeightOfImages(c.cut(), work.free.hasFabric ? &work.free.bare : nullptr, gravityStep, work.grid);
     if (c.settings().liquid.full) return;  // there is no surface
     levelWeight(c.cut(), findHeldBodies(grid, system, findUnheld(c)), gravityStep, work.grid, onSolids, work.beyond);
 }
