@@ -201,7 +201,6 @@ void withholdWeightOfImages(const ObstacleField& field, const Vec3& gravity, dou
 
 void levelWeightOfImages(const CutGrid& cut, const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid)
 {
-    constexpr double kHeldOfEven = 1.0 / 24.0;  // twice the part of a quadratic B-spline that is beyond a wall one cell away [-]
     const auto isDeep = [&](int b, int axis, int face) {
         Vec3i lower(face & 7, face >> 3 & 7, face >> 6);
         lower[axis] -= 1;
@@ -219,12 +218,24 @@ void levelWeightOfImages(const CutGrid& cut, const BlockBits<3>* bare, const Vec
         }
     });
     forEachPlaneWall(cut.grid, cut.obstacles, [&](const Obstacles::Wall& wall, int plane, auto&& forBlocksAtWall) {
-        if (gravityStep[wall.axis] == 0.0) return;
-        forBlocksAtWall([&](int b) {
+        const int a = wall.axis;
+        if (gravityStep[a] == 0.0) return;
+        const auto forDeepFaces = [&](int b, auto&& f) {
             forEachImage(cut.grid, b, wall, plane, false, [&](int c, int layer, int face, CellRef) {
-                if (c == wall.axis && layer == 1 && isDeep(b, c, face)) liquid.faces.velocity.block(b, c)[face] -= gravityStep[c] * kHeldOfEven;
+                if (c == a && layer == 1 && isDeep(b, a, face)) f(face);
             });
-        });
+        };
+        const auto sumOf = [&](auto&& ofBlock) {
+            return parallelSum(cut.grid.count(), [&](std::size_t n) {
+                double sum = 0.0;
+                forDeepFaces(static_cast<int>(n), [&](int face) { sum += ofBlock(static_cast<int>(n))[face]; });
+                return sum;
+            });
+        };
+        const double held = sumOf([&](int b) { return liquid.weightless.block(b, a); });
+        const double mass = sumOf([&](int b) { return liquid.faces.sums.block(b, FaceFields::kMass + a); });
+        if (!(mass > 0.0)) return;
+        forBlocksAtWall([&](int b) { forDeepFaces(b, [&](int face) { liquid.faces.velocity.block(b, a)[face] -= gravityStep[a] * held / mass; }); });
     });
 }
 

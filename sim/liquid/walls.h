@@ -37,8 +37,9 @@ void mirrorAtWalls(const BlockGrid& grid, const Obstacles& obstacles, double fri
 /// that do it acts evenly all the same, for only so can a pressure hold it: friction takes from the particles' motion after it.
 void withholdWeightOfImages(const ObstacleField& field, const Vec3& gravity, double dt, LiquidGrid& liquid);
 
-/// Deep faces next to plane walls bear the weight of even liquid. What images hold of it goes by the places of the particles, and is less where
-/// another solid stands on the wall; the pressures in the cells at the wall would differ by that, and turn liquid at rest for ever.
+/// Deep faces next to a plane wall bear the same share of their weight. What images hold of it goes by the places of the particles, and is less where
+/// another solid stands on the wall; the pressures in the cells at the wall would differ by that, and turn liquid at rest for ever. Together they
+/// bear what they did.
 /// @param gravityStep  velocity that weight has given to all faces in this step [cm/s]
 /// @param bare         faces without fabric, which keep what they have; null if all are
 void levelWeightOfImages(const CutGrid& cut, const BlockBits<3>* bare, const Vec3& gravityStep, LiquidGrid& liquid);
