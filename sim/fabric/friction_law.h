@@ -42,11 +42,14 @@ struct FrictionSpring {
 
     Vec3 trial(const Vec3& slip) const { return held + stiffness * slip; }
     /// Friction at a slip. Its stiffness is that of the chord, by which iterations come to rest from any side.
-    Friction at(const Vec3& slip) const
+    /// @param ofChord  part of it where it slides: with a half, errors along the way and across it shrink alike from iteration to iteration [-]
+    Friction at(const Vec3& slip, double ofChord = 1.0) const
     {
         const Vec3 force = trial(slip);
-        const double size = force.norm(), share = size > bound ? bound / size : 1.0;
-        return {share * force, share * stiffness, share * stiffness, Vec3::Zero(), size > bound};
+        const double size = force.norm();
+        if (size <= bound) return {force, stiffness, stiffness};
+        const double share = bound / size, answer = ofChord * share * stiffness;
+        return {share * force, answer, answer, Vec3::Zero(), true};
     }
     /// Friction at a slip that is not yet that of the end of the step; there it is expected to be another. A mass m that `expected` takes
     /// forward with the friction held so far would, without friction, come to where the spring has E = trial(expected) + κ held with

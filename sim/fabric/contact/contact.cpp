@@ -3,6 +3,7 @@
 #include "sim/core/parallel.h"
 #include "sim/fabric/contact/contact_parts.h"
 
+#include <cmath>
 #include <limits>
 
 namespace sim {
@@ -24,6 +25,7 @@ void FabricContact::beginStep(std::span<const Vec3> x, std::span<const double> m
     for (std::size_t v = 0; v < mass.size(); ++v) p.inverseMass[v] = p.list.primitives().pinned[v] ? 0.0 : 1.0 / mass[v];
     p.limiter.setMasses(p.inverseMass);
     p.list.beginStep();
+    p.isLookedAt = false;
 }
 
 FabricContact::LimitedMoves FabricContact::limit(std::span<const Vec3> x, std::span<Vec3> u, LimitReport& report, StageClock& clock)
@@ -40,15 +42,18 @@ FabricContact::Active FabricContact::activeAt(std::span<const Vec3> x, StageCloc
     clock.start(Stage::FabricCandidates);
     p.list.coverPositions(x);
     if (p.list.empty()) {
+        p.isLookedAt = false;
         p.resizeActive(0);
         return {p, p.active};
     }
     clock.start(Stage::FabricContact);
+    p.keepFound(x);
     p.list.measure(x);
     p.findActive(p.list.edgePairs(), p.edgePairs);
     p.findActive(p.list.facePairs(), p.facePairs);
     p.resizeActive(p.edgePairs.size() + p.facePairs.size());
     p.findHeld();
+    p.findPress();
     p.describe(x, expected, p.list.edgePairs(), p.edgePairs, 0);
     p.describe(x, expected, p.list.facePairs(), p.facePairs, p.edgePairs.size());
     if (p.bridges()) p.findBridges(x);
@@ -90,7 +95,7 @@ void FabricContact::Parts::resizeActive(std::size_t n)
 {
     active.vertices.resize(n), active.firstSide.resize(n), active.weights.resize(n), active.normal.resize(n), active.force.resize(n);
     active.stiffness.resize(n), active.frictionStiffness.resize(n), active.lever.resize(n), active.between.resize(n), frictionPairs.resize(n);
-    heldForce.resize(n);
+    heldForce.resize(n), press.resize(n);
 }
 
 /// Pair `place` of the pool as number `slot` of the active ones.
@@ -113,7 +118,9 @@ void FabricContact::Parts::describe(std::span<const Vec3> x, std::span<const Vec
 
     const double young = std::min(primitives.young[a], primitives.young[b]);
     const double stiffness = pairStiffness(young, primitives.radius[a] + primitives.radius[b], meanMass, springStep);
-    const PairEnergy energy = pairEnergy(distance, pairs.range(place), stiffness);
+    const bool isKnown = !std::isnan(press[slot]);
+    const PairEnergy energy =
+        isKnown ? pairTangent(distance, pairs.range(place), stiffness, press[slot]) : pairEnergy(distance, pairs.range(place), stiffness);
 
     active.vertices[slot] = v;
     active.firstSide[slot] = primitives.kind(a) == PairKind::EdgeEdge ? 2 : 1;

@@ -41,6 +41,11 @@ struct FabricContact::Parts {
     double mobility(std::size_t slot) const;
     void resizeActive(std::size_t n);
     void findHeld();
+    void keepFound(std::span<const Vec3> x);
+    void findPress();
+    double pressOf(std::size_t slot, std::span<const Vec3> x) const;
+    template <class Body>
+    void forEachKnown(std::span<const Vec2i> between, Body&& body) const;
     template <class Body>
     void forEachSeeker(Body&& body) const;
     double bridgeForceOf(int seeker, std::size_t i, std::span<const Vec3> x) const;
@@ -62,6 +67,10 @@ struct FabricContact::Parts {
     std::vector<FrictionPair> frictionPairs;  ///< friction of the active pairs
     FrictionForces held;                      ///< friction that is held at the start of the step
     std::vector<Vec3> heldForce;              ///< force of friction that is held on the active pairs [dyn]
+    bool isLookedAt = false;                  ///< whether pairs have been looked for in this step
+    std::vector<Vec2i> foundBetween;          ///< pairs of the last iteration
+    std::vector<double> foundPress;           ///< normal forces that it found for them [dyn]
+    std::vector<double> press;                ///< those of the active pairs, as far as they are known, or NaN [dyn]
     std::vector<char> isTouching;             ///< whether each vertex touches
     std::vector<int> nearest, opposite;       ///< active pair of each yarn edge's and vertex' bridge, and of one on its other side; or −1
     std::vector<Vec3> keptForce;              ///< force of friction on the active pairs at the end of the step [dyn]

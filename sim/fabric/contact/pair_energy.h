@@ -35,6 +35,24 @@ inline PairEnergy pairEnergy(double distance, const ContactDistances& range, dou
             strength / (left * left)};
 }
 
+/// The tangent of a pair's spring, as slope and curvature at a distance, where the spring has a force that an iteration has found for the pair
+/// [dyn]: as its stiffness grows with its way, Newton from where the pair has got to would let go by halves, and press many times too far. The
+/// tangent touches between a quarter of that way and its double; at the wall and below it is that of where the pair is. (fabric/contact/README.md,
+/// Energy of a pair.)
+inline PairEnergy pairTangent(double distance, const ContactDistances& range, double stiffness, double force)
+{
+    constexpr double kLeastWay = 0.25, kMostWay = 2.0;
+    const PairEnergy here = pairEnergy(distance, range, stiffness);
+    const double wall = range.wall(), way = range.reach - distance, soft = kSoftShare * (range.reach - wall);
+    if (!(way > 0.0) || distance <= wall) return here;
+    const double softest = 0.5 * stiffness * soft;  // force at the end of the soft part
+    const double found = force < softest ? std::sqrt(2.0 * soft * std::max(force, 0.0) / stiffness) : force / stiffness + 0.5 * soft;
+    const double touching = std::clamp(found, kLeastWay * way, kMostWay * way);
+    if (touching >= range.reach - wall) return here;
+    const PairEnergy there = pairEnergy(range.reach - touching, range, stiffness);
+    return {here.energy, std::min(there.slope + there.curvature * (touching - way), 0.0), there.curvature};
+}
+
 inline constexpr double kFirmPerStep = 4.0;  ///< stiffness relative to mass/h² that stops the mass within a few steps [-]
 
 /// Stiffness of a pair [dyn/cm]: of the fibres where they are soft; what a step can resolve where they are hard, and no less than it

@@ -2,23 +2,65 @@
 #include "sim/fabric/contact/contact_parts.h"
 #include "sim/fabric/contact/pair_turn.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace sim {
 
 using namespace contact;
 
-/// What friction holds on each of the active pairs: both lie in the same order.
-void FabricContact::Parts::findHeld()
+namespace {
+
+constexpr double kOfChord = 0.5;  ///< part of the chord's stiffness of friction that slides, from the second iteration on [-]
+
+}  // namespace
+
+/// body(slot, place) for the active pairs that are among others, which lie in the same order.
+template <class Body>
+void FabricContact::Parts::forEachKnown(std::span<const Vec2i> between, Body&& body) const
 {
     std::size_t next = 0;
     const auto find = [&](std::span<const PairPlace> places, std::size_t first) {
         for (std::size_t i = 0; i < places.size(); ++i) {
             const Vec2i pair(places[i].a, places[i].b);
-            while (next < held.between.size() && FrictionForces::isBefore(held.between[next], pair)) ++next;
-            heldForce[first + i] = next < held.between.size() && held.between[next] == pair ? held.force[next] : Vec3::Zero().eval();
+            while (next < between.size() && FrictionForces::isBefore(between[next], pair)) ++next;
+            if (next < between.size() && between[next] == pair) body(first + i, next);
         }
     };
     find(edgePairs, 0);
     find(facePairs, edgePairs.size());
+}
+
+/// What friction holds on each of the active pairs.
+void FabricContact::Parts::findHeld()
+{
+    std::ranges::fill(heldForce, Vec3::Zero());
+    forEachKnown(held.between, [&](std::size_t slot, std::size_t place) { heldForce[slot] = held.force[place]; });
+}
+
+/// Normal force of an active pair where its force and stiffness lead it, below 0 where it lets go [dyn].
+double FabricContact::Parts::pressOf(std::size_t slot, std::span<const Vec3> x) const
+{
+    Vec3 moved = -frictionPairs[slot].apart;
+    for (std::size_t k = 0; k < 4; ++k) moved += active.weights[slot][k] * x[active.vertices[slot][k]];
+    return frictionPairs[slot].pull - (active.force[slot] + active.stiffness[slot] * moved).dot(active.normal[slot]);
+}
+
+/// Keeps the normal forces that an iteration found on its way to x, for the next.
+void FabricContact::Parts::keepFound(std::span<const Vec3> x)
+{
+    foundBetween.clear();
+    if (isLookedAt) foundBetween = active.between;
+    isLookedAt = true;
+    foundPress.resize(foundBetween.size());
+    parallelFor(foundPress.size(), 512, [&](std::size_t i) { foundPress[i] = pressOf(i, x); });
+}
+
+void FabricContact::Parts::findPress()
+{
+    std::ranges::fill(press, std::numeric_limits<double>::quiet_NaN());
+    forEachKnown(foundBetween, [&](std::size_t slot, std::size_t place) { press[slot] = foundPress[place]; });
 }
 
 std::array<Vec3, 2> FabricContact::Parts::directionsAt(std::span<const Vec3> x, std::size_t slot) const
@@ -66,11 +108,14 @@ Friction FabricContact::Parts::friction(std::span<const Vec3> x, std::span<const
     const PairTurn turn(active.firstSide[slot], v, start, x);
     const auto along = [&](const Vec3& u) -> Vec3 { return u - normal.dot(u) * normal; };
     const Vec3 carried = turn * before;
+    // What pressed at the end of the last iteration is nearer to what will than what presses at x.
+    const bool isKnown = !std::isnan(press[slot]);
+    const double normalForce = isKnown ? std::max(press[slot], 0.0) : -energy.slope;
     const FrictionSpring spring{along(turn * heldForce[slot]), pairFrictionStiffness(-energy.slope, pressed, pair.perStep),
-                                pair.coefficient * -energy.slope};
+                                pair.coefficient * normalForce};
     active.lever[slot] = turn.lever(before, tangentsOf(normal));  // what presses is not felt as a moment
     active.frictionStiffness[slot] = spring.stiffness;
-    if (expected.empty()) return spring.at(along(apart - carried));
+    if (expected.empty()) return spring.at(along(apart - carried), isKnown ? kOfChord : 1.0);
     return spring.expected(along(apart - carried), along(before + further - carried), h * h * mobility(slot) * spring.stiffness);
 }
 
@@ -86,8 +131,7 @@ FabricContact::Parts::Acted FabricContact::Parts::actedOn(std::size_t i, std::sp
         slid -= active.turned(i, {now[0] - frictionPairs[i].directions[0], now[1] - frictionPairs[i].directions[1]});
     }
     const Vec3 acted = active.force[i] + active.frictionStiffness[i] * slid;
-    const double normalForce = frictionPairs[i].pull - (active.force[i] + active.stiffness[i] * moved).dot(n);
-    return {apart, acted - acted.dot(n) * n, frictionPairs[i].coefficient * std::max(normalForce, 0.0)};
+    return {apart, acted - acted.dot(n) * n, frictionPairs[i].coefficient * std::max(pressOf(i, x), 0.0)};
 }
 
 /// Mass of the vertices of the active pairs that are not pinned [g].

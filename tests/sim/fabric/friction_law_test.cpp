@@ -52,6 +52,38 @@ TEST(FrictionSpring, GivesBackNoMoreThanItStores)
     }
 }
 
+/// A mass that slides across a spring of friction, in any direction: iterations until its slip errs by less than a hundredth.
+int iterationsOfSlide(const FrictionSpring& spring, const Vec3& free, double give, double ofChord)
+{
+    const auto next = [&](const Vec3& slip, double part) -> Vec3 {
+        const Friction f = spring.at(slip, part);
+        return (free - give * (f.force - f.along * slip)) / (1.0 + give * f.along);
+    };
+    Vec3 rest = free;
+    for (int i = 0; i < 20000; ++i) rest = next(rest, 1.0);
+    Vec3 slip = free;
+    int count = 0;
+    for (; count < 200 && (slip - rest).norm() > 1.0e-2 * rest.norm(); ++count) slip = next(slip, ofChord);
+    return count;
+}
+
+/// Held back much and with a force at its start across its way, too.
+TEST(FrictionSpring, HalfOfTheChordFindsTheSlideInFewerIterations)
+{
+    Noise random(5);
+    int sum = 0, whole = 0, most = 0, mostOfWhole = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double give = std::pow(10.0, 0.7 * random());
+        const FrictionSpring spring{inPlane(random, 0.7), 4.0, 1.0};
+        const Vec3 direction = inPlane(random, 1.0).normalized(), free = (give * 1.0 + 0.3 + std::abs(random())) * direction;
+        const int half = iterationsOfSlide(spring, free, give, 0.5), full = iterationsOfSlide(spring, free, give, 1.0);
+        sum += half, whole += full;
+        most = std::max(most, half), mostOfWhole = std::max(mostOfWhole, full);
+    }
+    EXPECT_LT(sum, 0.7 * whole) << sum << " of " << whole;
+    EXPECT_LT(most, 0.7 * mostOfWhole) << most << " of " << mostOfWhole;
+}
+
 /// Pairs that turn like a rigid body about any axis turn what they hold along, and do not slide.
 TEST(PairTurn, IsTheTurnOfARigidBody)
 {

@@ -1,6 +1,7 @@
 #include "sim/fabric/contact/closest_points.h"
 #include "sim/fabric/contact/limiter.h"
 #include "sim/fabric/contact/pair_energy.h"
+#include "tests/sim/fabric/pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -221,6 +222,58 @@ TEST(PairEnergy, OneNewtonStepLeadsOutOfTheCore)
         const double reached = d - e.slope / e.curvature;
         EXPECT_GT(reached, kRange.core) << d;
         EXPECT_LT(reached, kRange.wall()) << d;
+    }
+}
+
+/// Iterations of a mass that is pressed against a pair's spring, until the force that they find errs by less than a hundredth of the load.
+/// @param give  how far the mass gives way, relative to the spring's force [cm/dyn]
+int iterationsUnder(double load, double give, double from, bool goesByForce)
+{
+    constexpr double kStiffness = 1.0e4;
+    const auto forceAt = [&](double way) { return -pairEnergy(kRange.reach - way, kRange, kStiffness).slope; };
+    double low = 0.0, high = kRange.reach - kRange.wall();  // the way at rest: forceAt(way) = load there, and less the more the mass gives way
+    const double free = give * load + [&] {
+        for (int i = 0; i < 100; ++i) (forceAt(0.5 * (low + high)) < load ? low : high) = 0.5 * (low + high);
+        return low;
+    }();
+    double way = from, found = 0.0;
+    for (int i = 1; i <= 50; ++i) {
+        const double distance = kRange.reach - way;
+        const PairEnergy e = goesByForce && i > 1 ? pairTangent(distance, kRange, kStiffness, found) : pairEnergy(distance, kRange, kStiffness);
+        const double next = (free + give * (e.slope + e.curvature * way)) / (1.0 + give * e.curvature);
+        found = -e.slope + e.curvature * (next - way);
+        way = std::clamp(next, 0.0, 0.999 * (kRange.reach - kRange.wall()));
+        if (std::abs(found - load) < 1.0e-2 * load && std::abs(forceAt(way) - load) < 1.0e-2 * load) return i;
+    }
+    return 50;
+}
+
+TEST(PairTangent, FindsLightAndHeavyLoadsInFewIterations)
+{
+    testing::Noise random(3);
+    int most = 0, mostBefore = 0, sum = 0, sumBefore = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const double load = 150.0 * std::pow(10.0, -1.5 * (1.0 + random())), give = std::pow(10.0, -3.0 + 2.0 * random());
+        const double from = 0.5 * (1.0 + random()) * 0.9 * (kRange.reach - kRange.wall()) + 1.0e-4;
+        const int now = iterationsUnder(load, give, from, true), before = iterationsUnder(load, give, from, false);
+        most = std::max(most, now), mostBefore = std::max(mostBefore, before);
+        sum += now, sumBefore += before;
+    }
+    EXPECT_LE(most, 5);
+    EXPECT_GE(mostBefore, 7);  // by halves
+    EXPECT_LT(sum, 0.9 * sumBefore);
+}
+
+TEST(PairTangent, IsTheSpringWhereItHasTheForce)
+{
+    for (double d = kRange.wall() + 1.0e-4; d < kRange.reach; d += 1.0e-4) {
+        const PairEnergy e = pairEnergy(d, kRange, 1.0e4), tangent = pairTangent(d, kRange, 1.0e4, -e.slope);
+        EXPECT_NEAR(tangent.slope, e.slope, 1.0e-10) << d;
+        EXPECT_NEAR(tangent.curvature, e.curvature, 1.0e-8) << d;
+        for (double force : {-100.0, 0.0, 1.0, 100.0}) {
+            EXPECT_LE(pairTangent(d, kRange, 1.0e4, force).slope, 0.0);
+            EXPECT_GE(pairTangent(d, kRange, 1.0e4, force).curvature, 0.0);
+        }
     }
 }
 
