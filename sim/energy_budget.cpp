@@ -54,11 +54,12 @@ void EnergyBudget::onFaces(EnergyChange change)
     after(change);
 }
 
-void EnergyBudget::viscosity(double bySolids)
+void EnergyBudget::viscosity(double bySolids, double byOpenings)
 {
     if (!changes_) return;
     book(EnergyChange::Solids, bySolids);
-    book(EnergyChange::Viscosity, -bySolids);
+    book(EnergyChange::Sources, byOpenings);
+    book(EnergyChange::Viscosity, -bySolids - byOpenings);
     onFaces(EnergyChange::Viscosity);
 }
 

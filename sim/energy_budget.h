@@ -22,8 +22,8 @@ class EnergyBudget {
     void toGrid();
     /// Gravity, or viscosity, has acted on the faces.
     void onFaces(EnergyChange change);
-    /// Viscosity has acted on the faces; through it solids that move did this work [erg].
-    void viscosity(double bySolids);
+    /// Viscosity has acted on the faces; through it solids that move and inlets did this work [erg].
+    void viscosity(double bySolids, double byOpenings);
     /// Keeps the velocities on faces, before weight is levelled or surface tension acts. Faces that fabric is on have the mixture's velocities by
     /// then, which are not looked at.
     void remember();

@@ -106,6 +106,13 @@ void Openings::press(const CutGrid& cut, const Push& push, const PressureFaces& 
     }
 }
 
+/// The velocity that an inlet gives to one of its faces [cm/s].
+double Openings::velocityOf(const DrivenFace& driven, const LiquidGrid& liquid)
+{
+    const bool meetsWall = driven.by == DrivenFace::By::VelocityInAir && liquid.inside.test(driven.from.block, driven.from.cell);
+    return meetsWall ? 0.0 : driven.velocity;
+}
+
 void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& faces, std::span<const OpeningMemory> memory, LiquidGrid& liquid)
 {
     driven_ = held_ = 0.0;
@@ -114,8 +121,7 @@ void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& 
         if (driven.by == DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
         const double fall = fall_[driven.axis], mass = massOf(liquid, driven.face, driven.axis);
         held_ += mass * fall * (liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell] - 0.5 * fall);
-        const bool meetsWall = driven.by == DrivenFace::By::VelocityInAir && liquid.inside.test(driven.from.block, driven.from.cell);
-        const double to = meetsWall ? 0.0 : driven.velocity;
+        const double to = velocityOf(driven, liquid);
         double& u = liquid.faces.velocity.block(driven.face.block, driven.axis)[driven.face.cell];
         driven_ += 0.5 * mass * (to - u) * (to + u);
         u = to;
@@ -128,6 +134,18 @@ void Openings::drive(const CutGrid& cut, const Push& push, const PressureFaces& 
             planeFaces_[f].kept = liquid.faces.velocity.block(block, side.opening.axis)[cell];
         }
     }
+}
+
+double Openings::viscousWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& withheld) const
+{
+    double work = 0.0;
+    for (const DrivenFace& driven : drivenFaces_) {
+        const auto [block, cell] = driven.face;
+        if (driven.by == DrivenFace::By::Copy || !isPassed(cut, liquid, driven.face, driven.axis)) continue;
+        const double change = liquid.faces.velocity.block(block, driven.axis)[cell] - velocityOf(driven, liquid);
+        work += massOf(liquid, driven.face, driven.axis) * withheld.block(block, driven.axis)[cell] * change;
+    }
+    return work;
 }
 
 void Openings::keepMoved(const BlockArray<double, 3>& velocity)

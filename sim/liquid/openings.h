@@ -59,6 +59,11 @@ class Openings {
 
     /// Kinetic energy that the last drive() gave to faces of inlets [erg].
     double driven() const { return driven_; }
+    /// Work of inlets in a step of viscosity, beyond what the next drive() has: they are driven before viscosity, which takes from their faces, and again
+    /// after what they got has been withheld [erg].
+    /// @param liquid    right after viscosity
+    /// @param withheld  what will be added to its velocities
+    double viscousWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& withheld) const;
     /// What weight had given to faces whose velocities are set, before the last drive(): nothing is left of it [erg].
     double heldWeight() const { return held_; }
     /// Work of the openings' pressure on the liquid [erg].
@@ -122,6 +127,7 @@ class Openings {
     std::optional<double> meanOut(const Side& side, const LiquidGrid& liquid) const;
     int& faceAt(Side& side, const Vec3i& cell) const;
     void press(const CutGrid& cut, const Push& push, const PressureFaces& faces, const OpeningMemory& memory, const Side& side, LiquidGrid& liquid);
+    static double velocityOf(const DrivenFace& driven, const LiquidGrid& liquid);
 
     std::vector<Side> sides_;
     std::vector<PlaneFace> planeFaces_;

@@ -49,6 +49,8 @@ void applyViscosity(StepContext& c)
     if (c.hasObstacles()) kept = work.onSolids.keepVelocities(work.grid.faces.velocity);
     c.report.viscosity = solveViscosity(c.cut(), c.settings().liquid, c.settings().solver, c.fallTime(), work.viscosity, work.grid);
     const double bySolids = kept ? work.onSolids.afterViscosity(*kept, c.cut(), work.viscosity.system, work.grid) : 0.0;
+    const double byOpenings = work.openings.viscousWork(c.cut(), work.grid, work.viscosity.withheld);
+    c.report.inflowWork += byOpenings;
     BlockArray<double, 3>& velocity = work.grid.faces.velocity;
     parallelFor(velocity.size(), 4096, [&](std::size_t i) { velocity.block(0)[i] += work.viscosity.withheld.block(0)[i]; });
     if (c.correctsStrain()) {
@@ -58,7 +60,7 @@ void applyViscosity(StepContext& c)
         parallelFor(velocity.size(), 4096, [&](std::size_t i) { viscous[i] = before[i] + (now[i] - weighed[i]); });
     }
     work.grid.unpressed = velocity;
-    c.energy.viscosity(bySolids);
+    c.energy.viscosity(bySolids, byOpenings);
 }
 
 void findCells(StepContext& c)

@@ -228,12 +228,13 @@ void bookInflowWork(StepContext& c)
     const StageScope scope(c.clock, Stage::Pressure);
     Workspace& work = c.work;
     const BlockGrid& grid = c.state.grid;
-    c.report.inflowWork = inflowWork(grid, work.inflow, c.state.pressure, c.dt);
+    const double done = inflowWork(grid, work.inflow, c.state.pressure, c.dt);
+    c.report.inflowWork += done;
     for (const Inflow& inflow : work.emission.inflows) {
         const bool isShut = isShutIn(inflow.source, work.inflow, grid, *c.plan.pressure);
         c.state.memory.sources[inflow.source].isShut = isShut ? 1.0 : 0.0;
     }
-    c.energy.pressedIn(c.report.inflowWork);
+    c.energy.pressedIn(done);
 }
 
 void passOpenings(StepContext& c)

@@ -82,6 +82,34 @@ domain: {box: {min: [-0.7089, 0, -0.7089], max: [0.7089, 8.155, 0.7089]}}
     }
 }
 
+/// Thick liquid is dragged in by its inlet: what viscosity gives to it the inlet has paid.
+TEST(Openings, ThickLiquidGetsNothingFromViscosity)
+{
+    for (Flume flume : flumes())
+        for (const double viscosity : {10.0, 300.0, 5000.0, 5.0e4}) {
+            flume.integrator = TimeIntegrator::Plain;
+            flume.roof = 12.0;
+            Scene scene = flume.scene();
+            scene.settings.liquid.viscosity = viscosity;
+            scene.settings.liquid.solveViscosity = true;
+            scene.sources[0].emissions[0].velocity.setZero();
+            Simulation simulation(scene);
+            simulation.bookEnergy();
+            double given = 0.0, kinetic = 0.0, start = simulation.energies().total(), paid = 0.0, gained = 0.0;
+            for (int n = 0; n < 30; ++n) {
+                const StepReport report = simulation.step(1.0);
+                const EnergyChanges& changes = *report.energyChanges;
+                kinetic = std::max(kinetic, report.energies.kinetic);
+                given += changes[EnergyChange::Viscosity];
+                paid += changes[EnergyChange::Sources] + changes[EnergyChange::Solids];
+                gained = std::max(gained, report.energies.total() - start - paid);
+            }
+
+            EXPECT_LT(given, 0.0) << flume.text() << ", " << viscosity << " poise";
+            EXPECT_LT(gained, 1.0e-3 * kinetic) << flume.text() << ", " << viscosity << " poise";
+        }
+}
+
 /// What flies out above the level of an outlet falls as everywhere.
 TEST(Openings, LiquidThatFliesByAnOutletGainsNothing)
 {
