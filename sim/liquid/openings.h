@@ -59,8 +59,8 @@ class Openings {
 
     /// Kinetic energy that the last drive() gave to faces of inlets [erg].
     double driven() const { return driven_; }
-    /// Work of inlets in a step of viscosity, beyond what the next drive() has: they are driven before viscosity, which takes from their faces, and again
-    /// after what they got has been withheld [erg].
+    /// Work of inlets in a step of viscosity, beyond what the next drive() has: they are driven before viscosity, which takes from their faces, and
+    /// again after what they got has been withheld [erg].
     /// @param liquid    right after viscosity
     /// @param withheld  what will be added to its velocities
     double viscousWork(const CutGrid& cut, const LiquidGrid& liquid, const BlockArray<double, 3>& withheld) const;
