@@ -16,6 +16,8 @@ struct Shape::Body {
 
     /// Shape::over, for a body whose distance is a convex function: never below its tangent plane.
     virtual Look over(std::span<const Vec3> corners, double enough) const;
+    /// Where the distance, a convex function that falls at a, is lowest on the way from a to b: from where it rises if b is not it.
+    virtual Vec3 lowestBetween(const Vec3& a, const Vec3& b) const;
     /// Upper bound of the distance on the hull of these points; a convex function is largest at one of them.
     virtual double mostOver(std::span<const Vec3> corners) const;
     virtual double steepest() const { return 1.0; }

@@ -16,16 +16,15 @@ Shape::Look Shape::over(std::span<const Vec3> corners, double enough) const
     return body_ ? body_->over(corners, enough) : Look{kInfinity, kInfinity};
 }
 
-/// Where the distance, a convex function that falls at a, is lowest on the way from a to b: from where it rises if b is not it.
-static Vec3 lowestBetween(const Shape::Body& body, const Vec3& a, const Vec3& b)
+Vec3 Shape::Body::lowestBetween(const Vec3& a, const Vec3& b) const
 {
     constexpr int kHalvings = 14;
     const Vec3 way = b - a;
-    if (body.normal(b).dot(way) <= 0.0) return b;
+    if (normal(b).dot(way) <= 0.0) return b;
     double low = 0.0, high = 1.0;
     for (int n = 0; n < kHalvings; ++n) {
         const double t = 0.5 * (low + high);
-        (body.normal(a + t * way).dot(way) > 0.0 ? high : low) = t;
+        (normal(a + t * way).dot(way) > 0.0 ? high : low) = t;
     }
     return a + 0.5 * (low + high) * way;
 }
@@ -50,7 +49,7 @@ Shape::Look Shape::Body::over(std::span<const Vec3> corners, double enough) cons
             if (const double s = n.dot(corner - x); s < slope) slope = s, deepest = corner;
         look.least = std::max(look.least, at + slope);
         if (at <= 0.0 || look.least >= std::min(enough, (1.0 - kNear) * at)) break;
-        x = lowestBetween(*this, x, deepest);
+        x = lowestBetween(x, deepest);
         at = distance(x);
     }
     return look;

@@ -76,6 +76,11 @@ struct Ball final : Shape::Body {
         const Vec3 q = x - center;
         return q.squaredNorm() > 0.0 ? Vec3(q.stableNormalized()) : Vec3(Vec3::UnitX());
     }
+    Vec3 lowestBetween(const Vec3& a, const Vec3& b) const override
+    {
+        const Vec3 way = b - a;
+        return a + std::min(1.0, (center - a).dot(way) / way.squaredNorm()) * way;
+    }
     Eigen::AlignedBox3d bounds(const Eigen::Isometry3d& t) const override
     {
         const Vec3 c = t * center;
